@@ -7,10 +7,12 @@ namespace armloom {
 
 void Diagnostics::Kept::add(Problem problem) {
   if (seen.contains({problem.pointer, problem.detail})) return;
-  if (problems.size() == kMaxDiagnostics) {
+  std::size_t& alike = of_slug[problem.slug];
+  if (alike == kMaxDiagnostics) {
     ++dropped;
     return;
   }
+  ++alike;
   seen.emplace(problem.pointer, problem.detail);
   problems.push_back(std::move(problem));
 }

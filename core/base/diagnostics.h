@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,8 +12,9 @@
 namespace armloom {
 
 // Collects the problems and warnings of a cell, so that a user sees every mistake at once. Repeated
-// entries are skipped, because two robots may share one URDF file. After kMaxDiagnostics entries,
-// further entries are only counted; a last entry gives their number.
+// entries are skipped, because two robots may share one URDF file. After kMaxDiagnostics entries
+// with the same slug, further ones are only counted, so that many of one kind never displace
+// another kind. A last entry gives the number of the counted ones.
 class Diagnostics {
  public:
   static constexpr std::size_t kMaxDiagnostics = 100;
@@ -38,6 +40,7 @@ class Diagnostics {
   struct Kept {
     Problems problems;
     std::set<std::pair<std::string, std::string>> seen;  // pointer, detail
+    std::map<std::string, std::size_t> of_slug;
     std::size_t dropped = 0;
 
     void add(Problem problem);

@@ -90,6 +90,7 @@ struct Arm {
 struct Robot {
   std::string name;
   std::string prefix;
+  std::string srdf_prefix = {};  // which the URDF's names have before those of the SRDF
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   std::vector<ArmId> arms;
   std::string urdf_text;  // for the dashboard; as read, but joints named in "fixed" are fixed

@@ -67,6 +67,10 @@ struct RobotDescription {
   std::string srdf;          // path, resolved like urdf
   std::string joint_limits;  // path of MoveIt's joint_limits.yaml; may be empty
   std::string prefix;        // prepended to the URDF's joint and link names
+  // Prepended to the joint and link names in the SRDF, and to the joint names in joint_limits, if
+  // only the URDF has this prefix.
+  std::string srdf_prefix = {};
+  std::string joint_limits_prefix = {};
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
   std::map<std::string, std::string> packages;             // package:// name -> folder
   // Positions (rad or m) at which joints are fixed, by URDF name. These are not joints of the cell.

@@ -101,8 +101,9 @@ PartPtr<ArmDescription> home_part() {
   return member<ArmDescription>(
       {"home",
        "Start and parking configuration: joint positions in the group's order (rad, m), or the "
-       "name of a state of the group in the SRDF. Default: every joint at zero, or at the limit "
-       "closest to zero.",
+       "name of a state in the SRDF: of the group, or of another group that gives each of these "
+       "joints a position (both_arms). Default: every joint at zero, or at the limit closest to "
+       "zero.",
        Need::optional,
        {}},
       make_format<HomeFormat>(),
@@ -161,10 +162,18 @@ FormatPtr<RobotDescription> robot_format() {
       field("prefix", &Robot::prefix, text(),
             "Prefix of every joint and link name of the robot: with left_, joint_1 becomes "
             "left_joint_1."),
+      field(
+          "srdf_prefix", &Robot::srdf_prefix, text(),
+          "Prefix that the joint and link names of the URDF have and those of the SRDF lack: with "
+          "ur_, base_link in the SRDF means ur_base_link of the URDF. Names of groups and states "
+          "are not changed."),
+      field("joint_limits_prefix", &Robot::joint_limits_prefix, text(),
+            "The same for the joint names in joint_limits."),
       field("base", &Robot::X_WB, object<Eigen::Isometry3d>({pose_part()}),
             "Pose of the URDF's root link in the world."),
       field("packages", &Robot::packages, dictionary(path()),
-            "Folder of each package in the URDF's package://name/... paths."),
+            "Folder of each package in the URDF's package://name/... paths. Also applies to "
+            "file:///any/folder/name/... addresses of files that this machine lacks."),
       field("fixed", &Robot::fixed, dictionary(number(kHeld)),
             "Joints that no job moves, with their positions (rad, m), for example of a torso under "
             "two arms. Names are without prefix."),

@@ -56,7 +56,8 @@ struct TokenOptions {
 };
 int change_tokens(const TokenOptions& options);
 
-int validate_cell(const std::string& cell_file);
+// `verbose`: prints every warning, not one line for each kind.
+int validate_cell(const std::string& cell_file, bool verbose = false);
 
 int print_cell_schema(bool markdown);
 int print_openapi();
@@ -65,13 +66,16 @@ int print_openapi();
 // be loaded.
 struct ImportOptions {
   std::vector<std::string> urdf;
-  std::vector<std::string> srdf;          // one per URDF
-  std::vector<std::string> joint_limits;  // none, or one per URDF
-  std::vector<std::string> robots;        // NAME or NAME:x=0.75,yaw_deg=180
-  std::vector<std::string> packages;      // NAME=FOLDER
-  std::string prefix;                     // for a single robot
-  std::string name;                       // default: name of `out`, else names of the robots
-  std::string out;                        // default: stdout
+  std::vector<std::string> srdf;                   // one per URDF
+  std::vector<std::string> joint_limits;           // none, or one per URDF
+  std::vector<std::string> robots;                 // NAME or NAME:x=0.75,yaw_deg=180
+  std::vector<std::string> packages;               // NAME=FOLDER
+  std::vector<std::string> srdf_prefixes;          // none, or one per URDF
+  std::vector<std::string> joint_limits_prefixes;  // none, or one per URDF
+  std::string prefix;                              // for a single robot
+  std::string name;      // default: name of `out`, else names of the robots
+  std::string out;       // default: stdout
+  bool verbose = false;  // every warning, not one line for each kind
 };
 int import_robots(const ImportOptions& options);
 
@@ -164,20 +168,29 @@ struct LoadedCell {
   std::string text;  // text of the cell file
   Problems warnings;
 };
+// Which problems and warnings of a cell are printed.
+enum class Detail { one_of_each_kind, all };
 // Prints problems and warnings on stderr and returns nullopt if the cell cannot be built.
-[[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
+[[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file,
+                                                  Detail detail = Detail::one_of_each_kind);
 // Loads a cell from a text, which is or will be the content of `cell_file`.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
-                                                       const std::string& cell_file);
+                                                       const std::string& cell_file,
+                                                       Detail detail = Detail::one_of_each_kind);
 // Returns true if a server would run the cell. Prints on stderr: warnings, pairs of links that the
 // SRDF disables without proof, and faults.
-[[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded);
+[[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded,
+                                 Detail detail = Detail::one_of_each_kind);
 
-// Prints "armloom: config/x.json:/robots/0/urdf: ..." on stderr.
-void complain(const std::string& file, const Problems& problems);
-void warn(const std::string& file, const Problems& warnings);
+// Prints "armloom: config/x.json:/robots/0/urdf: ..." on stderr. With `one_of_each_kind`, prints
+// three problems of one kind, because each may need its own remedy, and the number of others.
+void complain(const std::string& file, const Problems& problems, Detail detail = Detail::all);
+// Prints "armloom: warning: ...", one line with a count for each kind. Hazards (is_hazard()) come
+// first: "armloom: warning: hazard: ...".
+void warn(const std::string& file, const Problems& warnings,
+          Detail detail = Detail::one_of_each_kind);
 // Prints the problems and returns kExitBadInput.
-int refuse(const std::string& file, const Problems& problems);
+int refuse(const std::string& file, const Problems& problems, Detail detail = Detail::all);
 
 // Returns the problems. Those with this slug get the option ("--out") as their place.
 [[nodiscard]] Problems said_of_option(Problems problems, std::string_view slug,

@@ -37,12 +37,22 @@ void add_seed(CLI::App& command, std::uint64_t& seed,
   command.add_option("--seed", seed, of)->check(not_a_seed)->capture_default_str();
 }
 
+void add_verbose(CLI::App& command, bool& verbose) {
+  command.add_flag("--verbose", verbose,
+                   "print every fault and warning, not one line for each kind");
+}
+
 Command validate_command(CLI::App& app) {
-  const auto file = std::make_shared<std::string>();
+  struct Options {
+    std::string file;
+    bool verbose = false;
+  };
+  const auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("validate", "print what a cell contains, or all of its faults");
-  add_cell(*command, *file);
-  return {command, [file] { return validate_cell(*file); }};
+  add_cell(*command, options->file);
+  add_verbose(*command, options->verbose);
+  return {command, [options] { return validate_cell(options->file, options->verbose); }};
 }
 
 Command schema_command(CLI::App& app) {
@@ -84,12 +94,25 @@ Command import_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--package", options->packages,
-                   "folder of package://NAME/ (default: searched above the URDF); may be repeated")
+                   "folder of the meshes at package://NAME/... or file:///.../NAME/... (default: "
+                   "searched above the URDF); may be repeated")
       ->type_name("NAME=FOLDER")
       ->allow_extra_args(false);
   command->add_option(
       "--prefix", options->prefix,
       "prefix of joints and links of a single robot; several robots use their names");
+  command
+      ->add_option("--srdf-prefix", options->srdf_prefixes,
+                   "prefix of the URDF's names that the names in the SRDF lack, for example ur_; "
+                   "one for all --urdf, or one for each (\"\": none)")
+      ->type_name("PREFIX")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--joint-limits-prefix", options->joint_limits_prefixes,
+                   "the same for --joint-limits")
+      ->type_name("PREFIX")
+      ->allow_extra_args(false);
+  add_verbose(*command, options->verbose);
   command->add_option("--name", options->name,
                       "name of the cell (default: name of the --out file)");
   command->add_option(
@@ -259,6 +282,7 @@ Command audit_command(CLI::App& app) {
 void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // a flag
+    if (option->get_type_name() == "PREFIX") continue;    // one of several may be empty
     option->check([](const std::string& value) {
       return value.empty() ? std::string("is empty: give it a value or leave the option out")
                            : std::string();

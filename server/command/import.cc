@@ -22,6 +22,16 @@ void check_number(const std::string& option, std::size_t given, std::size_t urdf
                                            option + " for each --urdf, in the same order"));
 }
 
+// Checks an option that may be given once for all --urdf, or once for each.
+void check_number_or_one(const std::string& option, std::size_t given, std::size_t urdfs,
+                         Problems& problems) {
+  if (given > 1) check_number(option, given, urdfs, problems);
+}
+
+std::string at_or_only(const std::vector<std::string>& values, std::size_t i) {
+  return values.empty() ? "" : values.size() == 1 ? values.front() : values[i];
+}
+
 Result<ImportRequest> request_of(const ImportOptions& options) {
   Problems problems;
   ImportRequest request{.cell = options.name, .prefix = options.prefix};
@@ -29,6 +39,9 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   if (!options.joint_limits.empty()) {
     check_number("--joint-limits", options.joint_limits.size(), options.urdf.size(), problems);
   }
+  check_number_or_one("--srdf-prefix", options.srdf_prefixes.size(), options.urdf.size(), problems);
+  check_number_or_one("--joint-limits-prefix", options.joint_limits_prefixes.size(),
+                      options.urdf.size(), problems);
   for (const std::string& text : options.robots) {
     auto robot = read_placement(text);
     if (robot) {
@@ -52,7 +65,9 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   if (!problems.empty()) return failure(std::move(problems));
   for (std::size_t i = 0; i < options.urdf.size(); ++i) {
     request.files.push_back({options.urdf[i], options.srdf[i],
-                             options.joint_limits.empty() ? "" : options.joint_limits[i]});
+                             options.joint_limits.empty() ? "" : options.joint_limits[i],
+                             at_or_only(options.srdf_prefixes, i),
+                             at_or_only(options.joint_limits_prefixes, i)});
   }
   if (!options.out.empty()) {
     const fs::path out = fs::absolute(options.out);
@@ -81,8 +96,9 @@ bool write_new(const fs::path& file, const std::string& text) {
 int import_robots(const ImportOptions& options) {
   const auto request = request_of(options);
   if (!request) return refuse("", request.error());
+  const Detail detail = options.verbose ? Detail::all : Detail::one_of_each_kind;
   const auto imported = import_cell(*request);
-  if (!imported) return refuse("", imported.error());
+  if (!imported) return refuse("", imported.error(), detail);
   if (options.out.empty()) {
     std::cout << imported->text << std::flush;
   } else if (!write_new(options.out, imported->text)) {
@@ -92,8 +108,8 @@ int import_robots(const ImportOptions& options) {
   for (const std::string& remark : imported->remarks) {
     std::cerr << "armloom: note: " << file << ":" << remark << '\n';
   }
-  const auto loaded = load_cell_text(imported->text, file);
-  return loaded && is_fit_to_run(*loaded) ? kExitDone : kExitBadInput;
+  const auto loaded = load_cell_text(imported->text, file, detail);
+  return loaded && is_fit_to_run(*loaded, detail) ? kExitDone : kExitBadInput;
 }
 
 }  // namespace armloom

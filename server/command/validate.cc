@@ -117,12 +117,13 @@ void print_shapes(const std::vector<ShapeReport>& report) {
 
 }  // namespace
 
-int validate_cell(const std::string& cell_file) {
-  const auto loaded = load_cell(cell_file);
+int validate_cell(const std::string& cell_file, bool verbose) {
+  const Detail detail = verbose ? Detail::all : Detail::one_of_each_kind;
+  const auto loaded = load_cell(cell_file, detail);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
   print_cell(cell);
-  if (!is_fit_to_run(*loaded)) return kExitBadInput;
+  if (!is_fit_to_run(*loaded, detail)) return kExitBadInput;
 
   const auto shapes = report_shapes(loaded->cell);
   if (!shapes) {

@@ -92,6 +92,26 @@ std::string listed(const std::vector<const GroupChoice*>& choices) {
   return listed(names);
 }
 
+// Drops groups of several joints of which none moves another, such as wheels, if another group may
+// be an arm.
+void leave_out_wheels(const RobotTree& tree, const RobotSemantics& semantics,
+                      std::vector<GroupChoice>& choices) {
+  const auto are_side_by_side = [&](const GroupChoice& choice) {
+    const JointSet& joints = semantics.groups.at(choice.group);
+    return joints.size() > 1 && std::ranges::none_of(joints, [&](std::size_t joint) {
+             return std::ranges::any_of(
+                 joints, [&](std::size_t other) { return is_above(tree, {joint}, {other}); });
+           });
+  };
+  const bool has_others = std::ranges::any_of(choices, [&](const GroupChoice& choice) {
+    return choice.is_arm && !are_side_by_side(choice);
+  });
+  for (GroupChoice& choice : choices) {
+    if (has_others && choice.is_arm && are_side_by_side(choice))
+      leave_out(choice, "none of its joints moves another");
+  }
+}
+
 // Drops groups that move two other groups side by side, each at least as large.
 void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
@@ -189,6 +209,7 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
     }
     choices.push_back(std::move(choice));
   }
+  leave_out_wheels(tree, semantics, choices);
   leave_out_torsos(tree, semantics, choices);
   put_pieces_together(tree, semantics, names, choices);
   leave_out_unions(tree, semantics, choices);

@@ -26,6 +26,7 @@ struct GroupChoice {
 };
 // Selects the groups that become arms, in file order. A group is an arm if all of these are true:
 // - It is not an end effector.
+// - Some of its joints move others (wheels do not), if there is such a group.
 // - It does not consist of arms (subgroups by name, or groups whose joints are side by side), nor
 //   of an arm and a gripper.
 // - If it shares joints with another arm, these joints are a torso at the base of both.

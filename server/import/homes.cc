@@ -90,12 +90,14 @@ Result<Homes> choose_homes(const CellPtr& cell) {
                                               made_up ? kMadeUpClearance_m : 0.0)});
     }
   }
-  const auto found = find_free_homes(cell, places);
+  auto found = find_free_homes(cell, places);
   if (!found) return failure(found.error());
+  homes.found = *std::move(found);
   homes.of_arm = homes.wanted;
-  homes.is_free = found->has_value();
-  for (std::size_t a = 0; homes.is_free && a < candidates.size(); ++a) {
-    homes.of_arm[a] = candidates[a][(**found)[a]];
+  homes.is_free = homes.found.chosen.has_value();
+  for (std::size_t a = 0; a < candidates.size(); ++a) {
+    homes.tried.push_back(candidates[a].size());
+    if (homes.is_free) homes.of_arm[a] = candidates[a][(*homes.found.chosen)[a]];
   }
   return homes;
 }

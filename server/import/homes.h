@@ -21,12 +21,14 @@ struct HomeCandidate {
 // generated configurations at growing distance from zero. Deterministic.
 [[nodiscard]] std::vector<HomeCandidate> home_candidates(const Cell& cell, const Arm& arm);
 
-// A home for each arm, at which all arms keep their clearance. If none are found, `is_free` is
-// false and each arm has its best candidate.
+// A home for each arm, at which all arms keep their clearance except for found.lasting. If none are
+// found, `is_free` is false, each arm has its best candidate, and found.frequent names obstacles.
 struct Homes {
   std::vector<HomeCandidate> of_arm;
   std::vector<HomeCandidate> wanted;  // the best candidate of each arm
   bool is_free = false;
+  HomeChoice found;
+  std::vector<std::size_t> tried;  // number of candidates by arm
 };
 // Problems: those of find_free_homes.
 [[nodiscard]] Result<Homes> choose_homes(const CellPtr& cell);

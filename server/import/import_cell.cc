@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/diagnostics.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/cell_schema.h"
@@ -37,6 +38,7 @@ class CellImport {
     if (!problems.empty()) return failure(std::move(problems));
     if (auto placed = place(); !placed) return failure(std::move(placed.error()));
     for (std::size_t r = 0; r < placements_.size(); ++r) add_robot(r);
+    remark_on_unused_packages();
     name_cell();
     set_homes();
     return ImportedCell{written(), std::move(remarks_)};
@@ -81,6 +83,8 @@ class CellImport {
     robot.urdf = source.files.urdf.string();
     robot.srdf = source.files.srdf.string();
     robot.joint_limits = source.files.joint_limits.string();
+    robot.srdf_prefix = source.files.srdf_prefix;
+    robot.joint_limits_prefix = source.files.joint_limits_prefix;
     robot.prefix = alone ? request_.prefix : placement.name + "_";
     robot.X_WB = pose_of_words(placement.base);
     robot.packages = source.packages.folders;
@@ -100,10 +104,10 @@ class CellImport {
   }
 
   void remark_on(const ImportedRobot& source, const std::string& pointer) {
-    for (const std::string& package : source.packages.missing) {
-      remark(pointer + "/urdf", "The folder of the package " + package +
-                                    " was not found: give it with --package " + package +
-                                    "=FOLDER.");
+    for (const auto& [package, missing] : source.packages.missing) {
+      remark(pointer + "/packages",
+             "Not shown in the dashboard: " +
+                 to_text(package, missing, source.files.urdf, source.packages.unused) + ".");
     }
     for (const auto& [package, folder] : source.packages.guessed) {
       remark(pointer + "/packages", "The folder of the package " + package +
@@ -116,11 +120,25 @@ class CellImport {
                  (joint.state.empty() ? "at zero, or at the nearest limit."
                                       : "at its value in the state " + joint.state + "."));
     }
+    std::string left_out;
     for (const GroupChoice& group : source.left_out) {
-      remark(pointer + "/arms",
-             "The group " + group.group + " is not used as an arm: " + group.why + ".");
+      left_out += left_out.empty() ? "" : "; ";
+      left_out += group.group + ", because " + group.why;
     }
+    if (!left_out.empty())
+      remark(pointer + "/arms", "Groups of the SRDF that are not used as arms: " + left_out + ".");
     remark_on_guesses(source, pointer);
+  }
+
+  void remark_on_unused_packages() {
+    for (const auto& [name, folder] : request_.packages) {
+      if (std::ranges::any_of(sources_, [&, &package = name](const ImportedRobot& source) {
+            return !source.packages.unused.contains(package);
+          }))
+        continue;
+      remark("/robots", "No mesh is in a package " + name + ": --package " + name + "=" + folder +
+                            " was not needed.");
+    }
   }
 
   void remark_on_guesses(const ImportedRobot& source, const std::string& pointer) {
@@ -150,8 +168,14 @@ class CellImport {
 
   // Sets no homes if the cell cannot be built. Loading the cell will report why.
   void set_homes() {
-    const auto cell = build_cell(cell_);
+    Problems warnings;
+    const auto cell = build_cell(cell_, warnings);
     if (!cell) return;
+    if (std::ranges::any_of(warnings, [](const Problem& one) { return one.slug == "huge-mesh"; })) {
+      return remark("/robots",
+                    "No homes were chosen, because meshes are so large that their unit is probably "
+                    "wrong: first correct their scale in the URDF.");
+    }
     const auto homes = choose_homes(*cell);
     if (!homes) return;
     std::size_t next = 0;
@@ -159,17 +183,79 @@ class CellImport {
       for (std::size_t a = 0; a < cell_.robots[r].arms.size(); ++a, ++next) {
         const std::string pointer =
             "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) + "/home";
-        set_home(cell_.robots[r].arms[a], homes->of_arm[next], homes->wanted[next], pointer);
+        set_home(**cell, cell_.robots[r].arms[a], homes->of_arm[next], homes->wanted[next],
+                 homes->is_free ? homes->found.at_first[next] : std::nullopt, pointer);
       }
     }
-    if (!homes->is_free) {
-      remark("/robots",
-             "No homes were found at which all arms keep their clearance: move the bases apart, "
-             "or set homes yourself.");
+    remark_on_lasting(*homes);
+    if (!homes->is_free) remark_on_no_homes(**cell, *homes);
+  }
+
+  // Adds remarks about bodies of one robot that are too close wherever its arm is.
+  void remark_on_lasting(const Homes& homes) {
+    std::string own;
+    std::string others;
+    std::set<std::string> elements;
+    std::set<std::string> pairs;
+    bool apart = true;
+    for (const HomeObstacle& obstacle : homes.found.lasting) {
+      std::string& list = obstacle.is_self ? own : others;
+      list += (list.empty() ? "" : ", ") + obstacle.body_a + " and " + obstacle.body_b;
+      if (obstacle.is_self) {
+        elements.insert(obstacle.srdf_element);
+        apart = apart && obstacle.clearance_m >= 1e-4;
+      } else {
+        pairs.insert("[\"" + obstacle.body_a + "\", \"" + obstacle.body_b + "\"]");
+      }
+    }
+    const std::string no_help =
+        " at all positions that were tried, so neither other homes nor other bases help: ";
+    if (!own.empty()) {
+      remark("/self_clearance_m", "Links of one arm are closer than self_clearance_m" + no_help +
+                                      own + ". If they are so close by design, add to the SRDF " +
+                                      joined(elements, " ") +
+                                      (apart ? ", or lower self_clearance_m." : "."));
+    }
+    if (!others.empty()) {
+      remark("/allowed_collisions",
+             "Links of an arm are closer than their clearance to the body that carries it" +
+                 no_help + others + ". If they may touch, add " + joined(pairs, ", ") + " here.");
     }
   }
 
-  void set_home(ArmDescription& arm, const HomeCandidate& home, const HomeCandidate& wanted,
+  static std::string joined(const std::set<std::string>& texts, const std::string& between) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+    return all;
+  }
+
+  static std::string limit_of(const HomeObstacle& obstacle) {
+    return (obstacle.is_self ? "self_clearance_m (" : "their clearance (") +
+           text_of(obstacle.limit_m) + " m)";
+  }
+
+  // Returns true if moving bases changes the distance of the two.
+  bool bases_matter(const Cell& cell, const HomeObstacle& obstacle) const {
+    if (obstacle.is_self) return false;
+    return !obstacle.other || cell.arm(obstacle.arm).robot != cell.arm(*obstacle.other).robot;
+  }
+
+  void remark_on_no_homes(const Cell& cell, const Homes& homes) {
+    std::string text = "No homes were found at which all arms keep their clearances";
+    bool move_bases = false;
+    for (const HomeObstacle& obstacle : homes.found.frequent) {
+      const std::size_t tried = homes.tried[obstacle.arm.index()];
+      text += "; " + obstacle.body_a + " and " + obstacle.body_b + " are closer than " +
+              limit_of(obstacle) + " at " + std::to_string(obstacle.places) + " of " +
+              std::to_string(tried) + " positions of arm " + cell.arm(obstacle.arm).name;
+      move_bases = move_bases || bases_matter(cell, obstacle);
+    }
+    remark("/robots", text + (move_bases ? ": move the bases apart, or set homes yourself."
+                                         : ": set homes yourself."));
+  }
+
+  void set_home(const Cell& cell, ArmDescription& arm, const HomeCandidate& home,
+                const HomeCandidate& wanted, const std::optional<HomeObstacle>& obstacle,
                 const std::string& pointer) {
     using Kind = HomeCandidate::Kind;
     if (home.kind == Kind::named) {
@@ -179,19 +265,24 @@ class CellImport {
     }
     if (home.kind == wanted.kind && home.state == wanted.state) {
       if (home.kind == Kind::zero) {
-        remark(pointer, "The SRDF has no state of the group, so every joint is at zero.");
+        remark(pointer, "No state of the SRDF gives all joints of arm " + arm.name +
+                            ", so every joint is at zero.");
       }
       return;
     }
-    const std::string not_free = wanted.kind == Kind::named
-                                     ? "In the state " + wanted.state + " arm " + arm.name +
-                                           " is too close to other arms or objects here"
-                                     : "With every joint at zero arm " + arm.name +
-                                           " is too close to other arms or objects here";
+    const std::string where =
+        wanted.kind == Kind::named ? "In the state " + wanted.state : "With every joint at zero";
+    const std::string not_free =
+        where + " arm " + arm.name + " is too close to " +
+        (obstacle ? (obstacle->is_self ? "itself" : "other bodies") + (" (" + obstacle->body_a) +
+                        " and " + obstacle->body_b + ")"
+                  : "other arms or objects here");
     if (home.kind == Kind::made_up) {
+      const bool move_bases = !obstacle || bases_matter(cell, *obstacle);
       remark(pointer, not_free +
                           ", and other states of the SRDF do not help: this home was generated. "
-                          "Check it before you use it, or move the bases apart.");
+                          "Check it before you use it, or " +
+                          (move_bases ? "move the bases apart." : "set another."));
     } else if (home.kind == Kind::zero) {
       remark(pointer, not_free + ": every joint is at zero instead.");
     } else {

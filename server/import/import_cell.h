@@ -17,6 +17,9 @@ struct RobotFiles {
   std::filesystem::path urdf;
   std::filesystem::path srdf;
   std::filesystem::path joint_limits;  // may be empty
+  // As RobotDescription::srdf_prefix and joint_limits_prefix.
+  std::string srdf_prefix = {};
+  std::string joint_limits_prefix = {};
 };
 
 struct ImportRequest {

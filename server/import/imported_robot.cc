@@ -102,6 +102,25 @@ tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
   return failure(std::move(problems));
 }
 
+// Replaces the problems of meshes in missing packages by one problem for each package.
+void tell_missing_packages(const ImportedRobot& robot, Problems& problems) {
+  Problems of_packages;
+  for (const auto& [package, missing] : robot.packages.missing) {
+    const std::size_t all = problems.size();
+    std::erase_if(problems, [&, &meshes = missing.meshes](const Problem& problem) {
+      const auto* mesh = std::get_if<std::string>(&problem.value);
+      return problem.slug == "mesh-unresolved" && mesh != nullptr && meshes.contains(*mesh);
+    });
+    if (problems.size() == all) continue;  // only visuals
+    of_packages.push_back({ProblemKind::invalid,
+                           "package-missing",
+                           "--package",
+                           to_text(package, missing, robot.files.urdf, robot.packages.unused),
+                           {}});
+  }
+  problems.insert(problems.begin(), of_packages.begin(), of_packages.end());
+}
+
 }  // namespace
 
 Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
@@ -119,20 +138,16 @@ Result<ImportedRobot> read_imported_robot(const RobotFiles& files,
   robot.packages = find_packages(*urdf, files.urdf, packages, installed_package_folders());
   auto tree = read_urdf(*std::move(urdf), files.urdf, robot.packages.folders, diagnostics);
   if (!tree) tree = unread_robot(files.urdf);
-  const auto semantics = read_srdf(*std::move(srdf), files.srdf, *tree, {}, diagnostics);
+  const auto semantics =
+      read_srdf(*std::move(srdf), files.srdf, *tree, {}, files.srdf_prefix, diagnostics);
   std::optional<LimitsFile> limits_file;
-  if (limits) limits_file = read_limits_file(*limits, files.joint_limits, diagnostics);
+  if (limits) {
+    limits_file =
+        read_limits_file(*limits, files.joint_limits, files.joint_limits_prefix, diagnostics);
+  }
   if (diagnostics.count() > 0) {
     Problems problems = diagnostics.take();
-    for (const std::string& package : robot.packages.missing) {
-      problems.push_back({ProblemKind::invalid,
-                          "package-missing",
-                          "--package",
-                          "the folder of the package " + package + " was not found above " +
-                              files.urdf.string() + ": give it with --package " + package +
-                              "=FOLDER",
-                          {}});
-    }
+    tell_missing_packages(robot, problems);
     return failure(std::move(problems));
   }
 

@@ -5,20 +5,33 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/model/urdf/mesh_path.h"
+
 namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::map<std::string, std::set<std::string>> named_files(const std::string& urdf) {
-  static constexpr std::string_view kScheme = "package://";
-  std::map<std::string, std::set<std::string>> files;
-  for (std::size_t at = 0; (at = urdf.find(kScheme, at)) != urdf.npos;) {
-    at += kScheme.size();
-    const std::string address = urdf.substr(at, urdf.find_first_of("\"'<> \t\r\n", at) - at);
-    const std::size_t slash = address.find('/');
-    if (slash == 0 || slash == address.npos) continue;
-    files[address.substr(0, slash)].insert(address.substr(slash + 1));
+// Files and addresses of the meshes in one package.
+struct NamedFiles {
+  std::set<std::string> inside;     // paths below the package's folder
+  std::set<std::string> meshes;     // as the URDF names them
+  std::vector<fs::path> addressed;  // folders that addresses give the package (file://)
+};
+
+// Returns the meshes that the URDF looks for in packages. Omits those that are below its own
+// folder.
+std::map<std::string, NamedFiles> files_by_package(
+    const std::string& urdf_text, const fs::path& urdf,
+    const std::map<std::string, std::string>& given) {
+  std::map<std::string, NamedFiles> files;
+  for (const std::string& mesh : mesh_names(urdf_text)) {
+    const auto path = package_of_mesh(mesh, given);
+    if (!path || resolve_mesh(mesh, urdf.parent_path(), {})) continue;
+    NamedFiles& named = files[path->package];
+    named.inside.insert(path->inside.lexically_normal().string());
+    named.meshes.insert(mesh);
+    if (!path->folder.empty()) named.addressed.push_back(path->folder);
   }
   return files;
 }
@@ -29,6 +42,19 @@ bool holds_one(const fs::path& folder, const std::set<std::string>& files) {
   std::error_code error;
   return std::ranges::any_of(
       files, [&](const std::string& file) { return fs::is_regular_file(folder / file, error); });
+}
+
+// Returns the folders next to a folder in which the files of a package may be: its parent, and its
+// subfolders.
+std::vector<fs::path> folders_around(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.is_directory(error)) folders.push_back(entry.path());
+  }
+  std::ranges::sort(folders);
+  folders.insert(folders.begin(), folder.parent_path());
+  return folders;
 }
 
 std::vector<fs::path> split(const char* variable, const char* below) {
@@ -49,9 +75,24 @@ Packages find_packages(const std::string& urdf_text, const fs::path& urdf,
                        std::map<std::string, std::string> given,
                        const std::vector<fs::path>& installed) {
   Packages packages;
-  for (const auto& [name, files] : named_files(urdf_text)) {
+  for (const auto& [name, folder] : given) packages.unused.insert(name);
+  for (const auto& [name, files] : files_by_package(urdf_text, urdf, given)) {
+    packages.unused.erase(name);
+    const auto first_with_files = [&,
+                                   &inside = files.inside](const std::vector<fs::path>& folders) {
+      const auto found = std::ranges::find_if(
+          folders, [&](const fs::path& path) { return holds_one(path, inside); });
+      return found == folders.end() ? fs::path() : *found;
+    };
+    const MissingPackage missing{
+        .meshes = files.meshes, .inside = *files.inside.begin(), .given = {}, .likely = {}};
     if (const auto known = given.find(name); known != given.end()) {
-      packages.folders[name] = fs::weakly_canonical(known->second).string();
+      const fs::path folder = fs::weakly_canonical(known->second);
+      packages.folders[name] = folder.string();
+      if (holds_one(folder, files.inside)) continue;
+      MissingPackage& misplaced = packages.missing.emplace(name, missing).first->second;
+      misplaced.given = known->second;
+      misplaced.likely = first_with_files(folders_around(folder)).string();
       continue;
     }
     std::vector<fs::path> candidates;
@@ -61,16 +102,36 @@ Packages find_packages(const std::string& urdf_text, const fs::path& urdf,
       candidates.push_back(folder / name);
     }
     for (const fs::path& share : installed) candidates.push_back(share / name);
-    const auto found = std::ranges::find_if(
-        candidates, [&, &wanted = files](const fs::path& path) { return holds_one(path, wanted); });
-    if (found == candidates.end()) {
-      packages.missing.insert(name);
+    const fs::path found = first_with_files(candidates);
+    if (found.empty()) {
+      // Other folders are only suggested: the URDF must not choose what the cell permits.
+      packages.missing.emplace(name, missing).first->second.likely =
+          first_with_files(files.addressed).string();
     } else {
-      packages.folders[name] = found->string();
-      if (found->filename() != name) packages.guessed[name] = found->string();
+      packages.folders[name] = found.string();
+      if (found.filename() != name) packages.guessed[name] = found.string();
     }
   }
   return packages;
+}
+
+std::string to_text(const std::string& package, const MissingPackage& missing, const fs::path& urdf,
+                    const std::set<std::string>& unused) {
+  const bool is_one = missing.meshes.size() == 1;
+  const std::string meshes = std::to_string(missing.meshes.size()) +
+                             (is_one ? " mesh of " : " meshes of ") + urdf.filename().string() +
+                             " in the package " + package + " (" + *missing.meshes.begin() +
+                             (is_one ? ")" : ", ...)");
+  const std::string option = "--package " + package + "=";
+  const std::string remedy =
+      missing.likely.empty()
+          ? "give " + option + "FOLDER with the folder that contains " + missing.inside
+          : "give " + option + missing.likely;
+  if (!missing.given.empty()) return missing.given + " has none of the " + meshes + ": " + remedy;
+  std::string others;
+  for (const std::string& name : unused) others += (others.empty() ? "" : ", ") + name;
+  return meshes + (is_one ? " was" : " were") + " not found above " + urdf.string() + ": " +
+         remedy + (others.empty() ? "" : " (no mesh needs --package " + others + ")");
 }
 
 std::vector<fs::path> installed_package_folders() {

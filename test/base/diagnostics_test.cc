@@ -51,6 +51,17 @@ TEST(Diagnostics, KeepAHundredAndCountTheRest) {
   EXPECT_EQ(found.take_warnings().back().detail, "and 1 more warnings of the cell");
 }
 
+// Otherwise many warnings of one kind could displace a hazard.
+TEST(Diagnostics, KeepAHundredOfEachSlug) {
+  Diagnostics found;
+  for (int i = 0; i < 107; ++i) found.warn(problem("/" + std::to_string(i)));
+  found.warn({ProblemKind::invalid, "no-collision", "/links", "are not checked", {}});
+  const Problems warnings = found.take_warnings();
+  ASSERT_EQ(warnings.size(), Diagnostics::kMaxDiagnostics + 2);
+  EXPECT_EQ(warnings[100].slug, "no-collision");
+  EXPECT_EQ(warnings.back().detail, "and 7 more warnings of the cell");
+}
+
 TEST(Diagnostics, MergeUnchangedOrAllAsWarnings) {
   const auto part = [] {
     Diagnostics of;

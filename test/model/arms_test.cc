@@ -57,6 +57,47 @@ TEST(Arms, StoreNamedStatesInJointOrder) {
   EXPECT_EQ(cell->arms[0].named_states.at("out"), Eigen::Vector2d(0.2, 1.5));
 }
 
+class StatesOfBothArms : public testing::Test {
+ protected:
+  // Returns the cell with a state "tucked" of the group "both" and the home of the left arm.
+  CellDescription cell_with(const std::string& r_bend, const std::string& home) const {
+    CellDescription cell = two_arms_description();
+    cell.robots[0].srdf =
+        folder_.write("both.srdf", file_with(data_file("two_arms.srdf"), "</robot>",
+                                             R"(
+  <group_state name="tucked" group="both"><joint name="l_turn" value="0.4"/>
+    <joint name="l_slide" value="0.5"/><joint name="r_spin" value="1"/>)" +
+                                                 r_bend + R"(</group_state>
+  <group_state name="out" group="both"><joint name="l_turn" value="0.1"/>
+    <joint name="l_slide" value="0.1"/></group_state></robot>)"));
+    cell.robots[0].arms[0].home.clear();
+    cell.robots[0].arms[0].home_state = home;
+    return cell;
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(StatesOfBothArms, AreStatesOfEachArm) {
+  const std::string rest =
+      R"(<joint name="r_bend" value="0.6"/><joint name="r_last" value="0.2"/>)";
+  const CellPtr cell = build_or_fail(cell_with(rest, "tucked"));
+  EXPECT_EQ(cell->arms[0].home, Eigen::Vector2d(0.5, 0.4));
+  EXPECT_EQ(cell->arms[1].named_states.at("tucked"), Eigen::Vector3d(1, 0.6, 0.2));
+  // A state of the arm's own group comes first. The right arm has no complete state "out".
+  EXPECT_EQ(cell->arms[0].named_states.at("out"), Eigen::Vector2d(0.2, 1.5));
+  EXPECT_FALSE(cell->arms[1].named_states.contains("out"));
+}
+
+TEST_F(StatesOfBothArms, ApplyOnlyToArmsWithAllJoints) {
+  const CellPtr cell = build_or_fail(cell_with("", "tucked"));
+  EXPECT_TRUE(cell->arms[0].named_states.contains("tucked"));
+  EXPECT_FALSE(cell->arms[1].named_states.contains("tucked"));
+  CellDescription right = cell_with("", "tucked");
+  right.robots[0].arms[1].home_state = "tucked";
+  EXPECT_THAT(problems_of(right), HasSubstr("home 'tucked' is not a state of group 'right_arm' in "
+                                            "both.srdf; its states: none"));
+}
+
 TEST(Arms, UseTheLimitsOfTheCellFile) {
   auto description = two_arms_description();
   description.robots[0].arms[0].limits["l_turn"] = {

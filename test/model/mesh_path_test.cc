@@ -39,6 +39,8 @@ TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
             std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
   EXPECT_EQ(resolve("package://p/meshes/../meshes/inner.stl"),
             std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
+  EXPECT_EQ(resolve("package://p//meshes//b.stl"),
+            std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
   EXPECT_EQ(resolve("../package/meshes/b.stl"),
             std::filesystem::canonical(folder_.path() / "package/meshes/b.stl"));
   EXPECT_EQ(resolve("meshes/a.stl"),
@@ -48,7 +50,9 @@ TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
 TEST_F(MeshPath, RejectsPathsThatLeaveTheFolder) {
   EXPECT_THAT(refusal("package://p/../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("package://p/meshes/../../secret.stl"), HasSubstr("leaves its folder"));
-  EXPECT_THAT(refusal("package://p//etc/hostname"), HasSubstr("leaves its folder"));
+  // A repeated slash counts once, so this is a path below the package.
+  EXPECT_THAT(refusal("package://p//etc/hostname"), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal("package://p//../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("../secret.stl"),
               AllOf(HasSubstr("lies neither below the URDF's folder nor below one of the cell's "
                               "packages"),
@@ -71,6 +75,29 @@ TEST_F(MeshPath, AcceptsAbsolutePathsBelowAllowedFolders) {
             std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
 }
 
+// Addresses of another machine, as xacro writes them there. The folder here has another name.
+TEST_F(MeshPath, FindsThePackageInPathsOfAnotherMachine) {
+  const auto real = std::filesystem::canonical(folder_.path() / "package/meshes/b.stl");
+  EXPECT_EQ(resolve("file:///home/other/ws/src/p/meshes/b.stl"), real);
+  EXPECT_EQ(resolve("file:///home/other/ws/install/p/share/p/meshes/b.stl"), real);
+  EXPECT_EQ(resolve("/home/other/ws/src/p//meshes/b.stl"), real);
+  EXPECT_THAT(refusal("file:///home/other/p/meshes/c.stl"),
+              HasSubstr("does not exist: " + (folder_.path() / "package/meshes/c.stl").string()));
+  EXPECT_THAT(refusal("file:///home/other/p/meshes/link.stl"), HasSubstr("a symbolic link"));
+  EXPECT_THAT(refusal("file:///home/other/p/../secret.stl"), HasSubstr("lies neither"));
+}
+
+TEST_F(MeshPath, NeverSuggestsAFolderThatDoesNotExist) {
+  const std::string ask =
+      "\"packages\": {\"arm\": \"FOLDER\"} with the folder on this machine that "
+      "contains meshes/c.stl";
+  EXPECT_THAT(refusal("file:///home/other/ws/arm/meshes/c.stl"), HasSubstr(ask));
+  EXPECT_THAT(refusal("package://arm//meshes/c.stl"), HasSubstr(ask));
+  folder_.write("arm/readme", "");
+  EXPECT_THAT(refusal("file:///home/other/ws/arm/meshes/c.stl"),
+              HasSubstr("{\"arm\": \"" + (folder_.path() / "arm").string() + "\"}"));
+}
+
 TEST_F(MeshPath, SuggestsThePackagesEntryForAnAbsolutePath) {
   folder_.write("elsewhere/arm_description/meshes/visual/c.stl", "solid c");
   const auto real = std::filesystem::canonical(folder_.path() / "elsewhere").string();
@@ -80,7 +107,8 @@ TEST_F(MeshPath, SuggestsThePackagesEntryForAnAbsolutePath) {
   EXPECT_THAT(refusal("package://package/x.stl"),
               HasSubstr("add to the robot \"packages\": {\"package\": \""));
   EXPECT_THAT(refusal("file:///etc/hostname"), HasSubstr("lies neither below the URDF's folder"));
-  EXPECT_THAT(refusal("file://host/a.stl"), HasSubstr("another host"));
+  EXPECT_THAT(refusal("file://host/a.stl"),
+              AllOf(HasSubstr("another host, host:"), HasSubstr("three slashes (file:///home")));
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/link.stl").string()),
               HasSubstr("lies neither"));
 }

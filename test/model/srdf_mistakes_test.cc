@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
     Others, SrdfOddity,
     testing::Values(
         Mistake{"type=\"fixed\"", "type=\"planar\"", "twin.srdf: virtual_joint",
-                "it makes the robot's base planar; here the base does not move: the cell's "
+                "it makes the robot's base planar, but here the base stays where the cell's "
                 "\"base\" places it"},
         Mistake{"link1=\"r2\"", "link1=\"r9\"", "twin.srdf: disable_collisions",
                 "1 of 1 name links that are not in two_arms.urdf (r9 at line 16); they are left "

@@ -51,7 +51,7 @@ def run_robot(armloom, module, folder):
         return False
     if hasattr(module, "add_line"):
         add_missing_line(armloom, name, module, cell)
-    validated = run(armloom, "validate", "--cell", cell)
+    validated = run(armloom, "validate", "--verbose", "--cell", cell)
     check(f"nothing is wrong with {name}", validated.returncode == 0, validated)
     for warning in getattr(module, "WARNED", ()):
         check(f"{name} warns: {warning}", warning in validated.stderr, validated.stderr)

@@ -17,7 +17,7 @@ class ArmGroups : public ::testing::Test {
     choose(test::torso_srdf());
   }
   void choose(const std::string& srdf) {
-    semantics_ = read_srdf(srdf, "/torso.srdf", *tree_, {}, diagnostics_);
+    semantics_ = read_srdf(srdf, "/torso.srdf", *tree_, {}, "", diagnostics_);
     ASSERT_TRUE(semantics_) << diagnostics_.take().front().detail;
     choices_ = choose_arm_groups(*tree_, *semantics_, read_group_names(srdf));
   }
@@ -66,6 +66,17 @@ TEST_F(ArmGroups, ExcludeTheTorsoAndTheWholeRobot) {
     <group name="r"><joint name="right_3"/></group></robot>)");
   EXPECT_EQ(why("torso"), "it moves l, r");
   EXPECT_EQ(why("r"), "an arm");
+}
+
+TEST_F(ArmGroups, ExcludeJointsSideBySideSuchAsWheels) {
+  const std::string wheels = R"(<robot name="torso_robot"><group name="wheels">
+    <joint name="left_1"/><joint name="right_1"/><joint name="head_pan"/></group>)";
+  choose(wheels + R"(<group name="arm"><joint name="left_2"/><joint name="left_3"/>
+    <joint name="left_finger"/></group></robot>)");
+  EXPECT_EQ(why("wheels"), "none of its joints moves another");
+  EXPECT_EQ(why("arm"), "an arm");
+  choose(wheels + "</robot>");
+  EXPECT_EQ(why("wheels"), "an arm");  // the only group
 }
 
 TEST_F(ArmGroups, MayShareATorsoThatBecomesFixed) {

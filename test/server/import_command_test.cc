@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <regex>
 
 #include "server/codec/json_text.h"
+#include "test/server/close_wrists.h"
 #include "test/server/command_fixture.h"
 #include "test/server/torso_robot.h"
 
@@ -43,7 +45,9 @@ TEST_F(Import, MakesACellWithTwoRobotsFromOneUrdf) {
   ASSERT_EQ(right["arms"].size(), 1U);
   EXPECT_EQ(right["arms"][0]["name"], "right");
   EXPECT_EQ(right["arms"][0]["group"], "panda_arm");
-  EXPECT_THAT(made.err, HasSubstr("The group hand is not used as an arm: it is an end effector."));
+  EXPECT_THAT(made.err,
+              HasSubstr("Groups of the SRDF that are not used as arms: hand, because it is "
+                        "an end effector."));
   EXPECT_EQ(file["clearance_m"], 0.02);
   EXPECT_EQ(file["execution"]["duration_scaling"], 1.1);
   const std::string text = read_text_file(cell).value();
@@ -150,12 +154,107 @@ TEST_F(Import, AcceptsAnArmOfSubgroupsAndItsState) {
   EXPECT_EQ(arms[0]["home"], "ready");
 }
 
+// Another home or another base would not help. Each of the two remedies in the messages does.
+TEST_F(Import, NamesOwnLinksThatAreTooCloseInEveryPose) {
+  const std::string urdf = " --urdf " + file("twin.urdf", test::close_wrists_urdf()).string();
+  const std::string close =
+      urdf + " --srdf " + file("twin.srdf", test::close_wrists_srdf()).string();
+  const fs::path cell = folder_ / "cell.json";
+  const test::Outcome made = run("import" + close + " --out " + cell.string());
+  EXPECT_EQ(made.exit_code, 2);
+  EXPECT_THAT(made.err, AllOf(HasSubstr("neither other homes nor other bases help: link_5_l and "
+                                        "link_7_l, link_5_r and link_7_r."),
+                              Not(HasSubstr("move the bases"))));
+  EXPECT_EQ(written("cell.json")["robots"][0]["arms"][0]["home"], "home");  // of both_arms
+  EXPECT_EQ(written("cell.json")["robots"][0]["arms"][1]["home"], "home");
+
+  std::smatch lower;
+  ASSERT_TRUE(
+      std::regex_search(made.err, lower, std::regex(R"re("self_clearance_m" to ([0-9.]+))re")))
+      << made.err;
+  json lowered = written("cell.json");
+  lowered["self_clearance_m"] = std::stod(lower[1]);
+  EXPECT_EQ(run("validate --cell " + file("lowered.json", lowered.dump()).string()).exit_code, 0);
+
+  // Two such robots share the SRDF, so its lines have no prefix.
+  const std::string two = " --robot a:x=-2 --robot b:x=2";
+  const test::Outcome both = run("import" + close + two);
+  EXPECT_EQ(both.exit_code, 2);
+  const std::regex element("<disable_collisions [^>]*/>");
+  std::set<std::string> elements;
+  for (auto it = std::sregex_iterator(both.err.begin(), both.err.end(), element);
+       it != std::sregex_iterator(); ++it)
+    elements.insert(it->str());
+  std::string lines;
+  for (const std::string& one : elements) lines += one;
+  const fs::path mended = file("mended.srdf", test::close_wrists_srdf(lines));
+  EXPECT_EQ(run("import" + urdf + " --srdf " + mended.string() + two).exit_code, 0) << lines;
+}
+
+TEST_F(Import, FindsMeshesAtAddressesOfAnotherMachine) {
+  const fs::path shuttle = test::kSource / "models/shuttle";
+  const std::string text = read_text_file(shuttle / "shuttle.urdf").value();
+  const std::string srdf = " --srdf " + (shuttle / "shuttle.srdf").string();
+  for (const std::string address :
+       {"file:///home/other/ws/src/shuttle_description/", "/opt/share/shuttle_description/",
+        "package://shuttle_description//", "package://shuttle_description/"}) {
+    const std::string urdf =
+        std::regex_replace(text, std::regex("package://shuttle_description/"), address);
+    const std::string files = "import --urdf " + file("shuttle.urdf", urdf).string() + srdf;
+    const test::Outcome refused = run(files);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, AllOf(HasSubstr("--package: 7 meshes of shuttle.urdf in the package "
+                                             "shuttle_description (" +
+                                             address),
+                                   HasSubstr("give --package shuttle_description=FOLDER with the "
+                                             "folder that contains meshes/base_link.stl"),
+                                   Not(HasSubstr("add to the robot"))));
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+    const std::string option = " --package shuttle_description=";
+    EXPECT_EQ(run(files + option + shuttle.string()).exit_code, 0) << address;
+    // The folder above the right one: the message names the right one.
+    EXPECT_THAT(run(files + option + shuttle.parent_path().string()).err,
+                HasSubstr("/models has none of the 7 meshes"));
+    EXPECT_THAT(run(files + option + shuttle.parent_path().string()).err,
+                HasSubstr("give --package shuttle_description=" + shuttle.string()));
+    EXPECT_THAT(run(files + " --package shuttle=" + shuttle.string()).err,
+                HasSubstr("(no mesh needs --package shuttle)"));
+  }
+}
+
+TEST_F(Import, AppliesThePrefixThatTheMessageNames) {
+  std::string urdf = read_text_file(test::kSource / "models/ur5e.urdf").value();
+  urdf = std::regex_replace(
+      urdf, std::regex(R"re((<link name="|<joint name="|<parent link="|<child link="))re"),
+      "$1ur_");
+  const std::string arguments =
+      "import --urdf " + file("ur.urdf", urdf).string() + " --srdf " +
+      (test::kSource / "models/ur5e.srdf").string() + " --joint-limits " +
+      file("joint_limits.yaml", "joint_limits: {elbow_joint: {max_velocity: 0.5}}").string() +
+      " --robot a:x=-1 --robot b:x=1 --out " + (folder_ / "cell.json").string();
+  const test::Outcome refused = run(arguments);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("exist in ur.urdf with ur_ before them"));
+  EXPECT_THAT(refused.err, HasSubstr("(armloom import: --srdf-prefix ur_)"));
+  const test::Outcome made = run(arguments + " --srdf-prefix ur_ --joint-limits-prefix ur_");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  const json robot = written("cell.json")["robots"][1];
+  EXPECT_EQ(robot["srdf_prefix"], "ur_");
+  EXPECT_EQ(robot["joint_limits_prefix"], "ur_");
+  EXPECT_THAT(run("validate --cell " + (folder_ / "cell.json").string()).out,
+              HasSubstr("b_ur_elbow_joint"));
+}
+
 TEST_F(Import, WritesACellThatDoesNotLoadAndExitsWithTwo) {
   // Both bases are at the same place, so no homes are collision-free.
   const test::Outcome made = run("import" + files("panda") + " --robot a --robot b");
   EXPECT_EQ(made.exit_code, 2);
   EXPECT_TRUE(parse_json(made.out, JsonComments::allowed));
-  EXPECT_THAT(made.err, HasSubstr("No homes were found at which all arms keep their clearance"));
+  EXPECT_THAT(made.err,
+              AllOf(HasSubstr("No homes were found at which all arms keep their clearances"),
+                    HasSubstr("are closer than their clearance (0.02 m) at "),
+                    HasSubstr("move the bases apart")));
   EXPECT_THAT(made.err, HasSubstr("apart at home"));
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Key;
 using testing::Pair;
 namespace fs = std::filesystem;
 
@@ -39,20 +40,22 @@ TEST_F(PackageFolders, AreFoundByTheirContents) {
   put("ws/arm_moveit_config/config/arm.urdf");
   put("opt/share/hand/hand.stl");
   put("ws/renamed/meshes/table.stl");
-  const std::string urdf = R"(<mesh filename="package://arm_description/meshes/link.stl"/>
+  const std::string urdf = R"(<r><mesh filename="package://arm_description/meshes/link.stl"/>
     <mesh filename='package://arm_description/meshes/left_out.dae'/>
-    <mesh filename="package://hand/hand.stl"/> <mesh filename="package://nowhere/x.stl"/>
-    <mesh filename="package://given/y.stl"/>)";
+    <mesh filename="package://hand//hand.stl"/> <mesh filename="package://nowhere/x.stl"/>
+    <mesh filename="package://given/ws/renamed/meshes/table.stl"/>
+    <!-- <mesh filename="package://commented_out/x.stl"/> --></r>)";
   const Packages found = find_packages(urdf, top_ / "ws/arm_moveit_config/config/arm.urdf",
                                        {{"given", top_.string()}}, {top_ / "opt/share"});
   EXPECT_THAT(
       found.folders,
       ElementsAre(Pair("arm_description", (top_ / "ws/arm_description").string()),
                   Pair("given", top_.string()), Pair("hand", (top_ / "opt/share/hand").string())));
-  EXPECT_THAT(found.missing, ElementsAre("nowhere"));
+  EXPECT_THAT(found.missing, ElementsAre(Key("nowhere")));
   // The folder has another name than the package, contains the files, and is above the URDF.
-  const Packages renamed = find_packages(R"("package://table_description/meshes/table.stl")",
-                                         top_ / "ws/renamed/urdf/table.urdf", {}, {});
+  const Packages renamed =
+      find_packages(R"(<mesh filename="package://table_description/meshes/table.stl"/>)",
+                    top_ / "ws/renamed/urdf/table.urdf", {}, {});
   EXPECT_THAT(renamed.folders,
               ElementsAre(Pair("table_description", (top_ / "ws/renamed").string())));
 }
@@ -116,9 +119,9 @@ TEST(ChosenHomes, AreOtherStatesIfTheHomeStatesCollide) {
   ASSERT_TRUE(homes->is_free);
   EXPECT_FALSE(homes->of_arm[0].state == "home" && homes->of_arm[1].state == "home");
   const HomePlaces chosen{{{homes->of_arm[0].q, 0.02}}, {{homes->of_arm[1].q, 0.02}}};
-  EXPECT_TRUE(find_free_homes(*cell, chosen).value());
+  EXPECT_TRUE(find_free_homes(*cell, chosen)->chosen);
   const HomePlaces wanted{{{homes->wanted[0].q, 0.02}}, {{homes->wanted[1].q, 0.02}}};
-  EXPECT_FALSE(find_free_homes(*cell, wanted).value());
+  EXPECT_FALSE(find_free_homes(*cell, wanted)->chosen);
   const auto again = choose_homes(*cell);
   EXPECT_EQ(again->of_arm[1].q, homes->of_arm[1].q);
 }
@@ -129,6 +132,14 @@ TEST(ChosenHomes, AreReportedAsCollidingIfNoneIsFree) {
   const auto homes = choose_homes(*cell);
   ASSERT_TRUE(homes);
   EXPECT_FALSE(homes->is_free);
+  // Other bases would help, so no pair is told as too close for good.
+  EXPECT_THAT(homes->found.lasting, testing::IsEmpty());
+  ASSERT_FALSE(homes->found.frequent.empty());
+  const HomeObstacle& obstacle = homes->found.frequent.front();
+  EXPECT_EQ(obstacle.arm, ArmId(0));
+  EXPECT_THAT(obstacle.body_a, testing::StartsWith("left_"));
+  EXPECT_THAT(obstacle.body_b, testing::StartsWith("right_"));
+  EXPECT_EQ(obstacle.places, homes->tried[0]);
   EXPECT_EQ(homes->of_arm[0].state, homes->wanted[0].state);
 }
 

@@ -1,5 +1,9 @@
+#include <gmock/gmock.h>
+
+#include <regex>
 #include <sstream>
 
+#include "test/server/close_wrists.h"
 #include "test/server/command_fixture.h"
 
 namespace armloom {
@@ -9,6 +13,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::kCell;
 using test::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 class ValidateCommand : public test::CommandFixture {};
 
@@ -41,6 +48,39 @@ TEST_F(ValidateCommand, MarksDefaultLimits) {
   EXPECT_NE(outcome.out.find("* a default: velocity 1, acceleration 3.75, jerk 7500, brake twice"),
             std::string::npos);
   EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(ValidateCommand, PrintsHazardsFirstAndOneLineForEachKind) {
+  std::string urdf = test::close_wrists_urdf();
+  urdf = std::regex_replace(urdf, std::regex("</link>"), "<gravity/></link>");  // six links
+  const std::string camera =
+      R"(<link name="camera"><visual/></link><joint name="mount" type="fixed">
+    <parent link="body"/><child link="camera"/></joint></robot>)";
+  urdf.replace(urdf.find("</robot>"), 8, camera);
+  (void)file("twin.urdf", urdf);
+  (void)file("twin.srdf", test::close_wrists_srdf());
+  const json cell = {{"name", "twin"},
+                     {"self_clearance_m", 0.001},
+                     {"robots",
+                      {{{"name", "twin"},
+                        {"urdf", "twin.urdf"},
+                        {"srdf", "twin.srdf"},
+                        {"arms", {{{"name", "left"}, {"group", "left_arm"}}}},
+                        {"fixed", {{"joint_5_r", 0}, {"joint_6_r", 0}, {"joint_7_r", 0}}}}}}};
+  const std::string arguments = "validate --cell " + file("cell.json", cell.dump()).string();
+  const Outcome brief = run(arguments);
+  EXPECT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_THAT(brief.err, StartsWith("armloom: warning: hazard: twin.urdf: links: camera"));
+  EXPECT_THAT(brief.err,
+              HasSubstr("armloom: warning: twin.urdf:1: link link_5_l: <gravity> is not known here "
+                        "and is left out [and 5 more of this kind; validate and import print them "
+                        "with --verbose]\n"));
+  EXPECT_THAT(brief.err, Not(HasSubstr("link link_6_l")));
+  const Outcome all = run(arguments + " --verbose");
+  EXPECT_THAT(all.err, StartsWith("armloom: warning: hazard: twin.urdf: links: camera"));
+  for (const std::string link : {"link_5_l", "link_6_l", "link_7_l", "link_7_r"})
+    EXPECT_THAT(all.err, HasSubstr(": link " + link + ": <gravity> is not known here"));
+  EXPECT_THAT(all.err, Not(HasSubstr("more of this kind")));
 }
 
 TEST_F(ValidateCommand, WarnsIfABrakeIsWeakerThanTheAcceleration) {

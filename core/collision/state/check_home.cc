@@ -1,6 +1,7 @@
 #include "core/collision/state/check_home.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -32,7 +33,31 @@ std::optional<std::string> claim_of(const PlanningScene& scene, PairId pair) {
   return found == claimed.end() ? std::nullopt : std::optional(found->second);
 }
 
+// Returns the remedies for two links of one arm.
+std::string remedy_for_own_links(const Cell& cell, const Proximity& near) {
+  std::array<char, 16> kept{};
+  const double kept_m = std::floor(near.clearance_m * 1e4) / 1e4;
+  std::snprintf(kept.data(), kept.size(), "%.4f", kept_m);
+  return " (if these two are always so close, add to the SRDF " +
+         disabling_element(cell, near.body_a, near.body_b) +
+         (kept_m > 0.0 ? ", or lower the cell's \"self_clearance_m\" to " + std::string(kept.data())
+                       : "") +
+         "; else give another \"home\")";
+}
+
 }  // namespace
+
+std::string disabling_element(const Cell& cell, const std::string& a, const std::string& b) {
+  const auto in_srdf = [&](const std::string& name) {
+    const auto link = cell.find_link(name);
+    if (!link) return name;
+    const Robot& robot = cell.robots[cell.link(*link).robot.index()];
+    const std::string prefix = robot.prefix + robot.srdf_prefix;
+    return name.starts_with(prefix) ? name.substr(prefix.size()) : name;
+  };
+  return "<disable_collisions link1=\"" + in_srdf(a) + "\" link2=\"" + in_srdf(b) +
+         "\" reason=\"Never\"/>";
+}
 
 Problems check_home(const PlanningScenePtr& scene) {
   const Cell& cell = scene->cell();
@@ -54,10 +79,7 @@ Problems check_home(const PlanningScenePtr& scene) {
     const auto claim = claim_of(*scene, pair.pair);
     const std::string may_touch = "; if these two may touch, " + allow;
     std::string remedy =
-        self ? " (if these two are always so close, add to the SRDF <disable_collisions link1=\"" +
-                   proximity.body_a + "\" link2=\"" + proximity.body_b +
-                   "\" reason=\"Adjacent\"/> with the link names of the SRDF; else give another "
-                   "\"home\")"
+        self ? remedy_for_own_links(cell, proximity)
              : " (give another \"home\" or move one of them" +
                    (proximity.arm_b && !claim ? "" : may_touch) +
                    (claim ? "; " + *claim + " disables the pair without proof, so it is checked"

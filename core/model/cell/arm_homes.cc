@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/model/cell/robot_build.h"
 
@@ -62,6 +65,34 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   return values;
 }
 
+// Returns the states that apply to the arm: those of its group, and those of other groups that give
+// a position to each of its joints (both_arms). Of several states with one name, the arm's own
+// group comes first, then the group with the fewest joints.
+std::map<std::string, NamedState> states_of(const RobotBuild& robot, const ArmBuild& build) {
+  const RobotSemantics& semantics = *robot.semantics;
+  std::map<std::string, NamedState> states;
+  std::vector<std::string> others;
+  for (const auto& [group, of_group] : semantics.states) {
+    if (group == build.description->group)
+      states = of_group;
+    else
+      others.push_back(group);
+  }
+  std::ranges::stable_sort(
+      others, {}, [&](const std::string& group) { return semantics.groups.at(group).size(); });
+  const auto has_all = [&](const NamedState& state) {
+    return std::ranges::all_of(build.group, [&](std::size_t index) {
+      return !robot.joints[index] || state.values.contains(index);
+    });
+  };
+  for (const std::string& group : others) {
+    for (const auto& [name, state] : semantics.states.at(group)) {
+      if (has_all(state)) states.emplace(name, state);
+    }
+  }
+  return states;
+}
+
 // Adds the named states without faults to the arm. Faults of the state that is the arm's home are
 // problems; faults of other states are warnings.
 void read_named_states(const RobotBuild& robot, const ArmBuild& build,
@@ -88,19 +119,15 @@ std::string listed(const std::map<std::string, NamedState>& states) {
 
 // Reports a home that names an unknown state. The faults of a known state were reported before.
 void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
-                          const std::string& pointer, Diagnostics& diagnostics) {
-  std::map<std::string, NamedState> none;
-  const std::map<std::string, NamedState>* states = &none;
-  if (robot.semantics) {
-    const auto of_group = robot.semantics->states.find(arm.group);
-    if (of_group != robot.semantics->states.end()) states = &of_group->second;
-  }
-  if (states->contains(arm.home_state)) return;
+                          const std::string& pointer,
+                          const std::map<std::string, NamedState>& states,
+                          Diagnostics& diagnostics) {
+  if (states.contains(arm.home_state)) return;
   diagnostics.in_cell("unknown-state", pointer + "/home",
                       "arm " + arm.name + ": home '" + arm.home_state +
                           "' is not a state of group '" + arm.group + "'" +
                           (robot.semantics ? " in " + robot.semantics->file : "") +
-                          "; its states: " + listed(*states),
+                          "; its states: " + listed(states),
                       arm.home_state);
 }
 
@@ -118,19 +145,26 @@ void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
       else
         diagnostics.merge_as_warnings(std::exchange(state.faults, {}));
     }
-    if (!arm.home_state.empty())
-      refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a), diagnostics);
+    // A state of another group may apply to the arm.
+    const bool is_known = std::ranges::any_of(robot.semantics->states, [&](const auto& of_group) {
+      return of_group.second.contains(arm.home_state);
+    });
+    if (arm.home_state.empty() || is_known) continue;
+    refuse_unknown_state(robot, arm, robot.pointer + "/arms/" + std::to_string(a),
+                         robot.semantics->states[arm.group], diagnostics);
   }
 }
 
 // Returns the positions of the named state that is the arm's home. If the state is unusable,
 // returns nullopt; the faults are reported.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
-                                          const Arm& arm, Diagnostics& diagnostics) {
+                                          const Arm& arm,
+                                          const std::map<std::string, NamedState>& states,
+                                          Diagnostics& diagnostics) {
   const std::string& name = build.description->home_state;
   const auto state = arm.named_states.find(name);
   if (state != arm.named_states.end()) return state->second;
-  refuse_unknown_state(robot, *build.description, build.pointer, diagnostics);
+  refuse_unknown_state(robot, *build.description, build.pointer, states, diagnostics);
   return std::nullopt;
 }
 
@@ -232,11 +266,11 @@ void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
     }
     if (robot.tree.patched) continue;  // the group may contain unintended joints
     const std::string& named = build.description->home_state;
-    if (robot.semantics)
-      read_named_states(robot, build, robot.semantics->states[arm.group], cell, diagnostics);
+    auto states = robot.semantics ? states_of(robot, build) : std::map<std::string, NamedState>();
+    read_named_states(robot, build, states, cell, diagnostics);
     std::optional<Eigen::VectorXd> home;
     if (!named.empty())
-      home = named_home(robot, build, arm, diagnostics);
+      home = named_home(robot, build, arm, states, diagnostics);
     else if (!build.description->home.empty())
       home = listed_home(robot, build, arm, diagnostics);
     if (home) arm.home = *std::move(home);

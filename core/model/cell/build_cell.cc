@@ -72,8 +72,9 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
                               diagnostics);
   auto srdf = load(description.srdf, "srdf");
   const auto limits = load(description.joint_limits, "joint_limits");
-  auto limits_file =
-      limits ? read_limits_file(*limits, description.joint_limits, diagnostics) : std::nullopt;
+  auto limits_file = limits ? read_limits_file(*limits, description.joint_limits,
+                                               description.joint_limits_prefix, diagnostics)
+                            : std::nullopt;
   auto tree = urdf
                   ? read_urdf(*std::move(urdf), description.urdf, description.packages, diagnostics)
                   : std::nullopt;
@@ -93,7 +94,7 @@ RobotBuild read_robot(const RobotDescription& description, std::size_t index, Me
                    .shared = {}};
   if (srdf) {
     robot.semantics = read_srdf(*std::move(srdf), description.srdf, robot.tree,
-                                used_groups(description), diagnostics);
+                                used_groups(description), description.srdf_prefix, diagnostics);
   }
   return robot;
 }
@@ -234,6 +235,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   for (const auto& robot : description.robots) {
     cell.robots.push_back({.name = robot.name,
                            .prefix = robot.prefix,
+                           .srdf_prefix = robot.srdf_prefix,
                            .X_WB = robot.X_WB,
                            .arms = {},
                            .urdf_text = {},

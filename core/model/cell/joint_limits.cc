@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/model/cell/limits_of_joint.h"
+#include "core/model/urdf/lacking_prefix.h"
 
 namespace armloom {
 namespace {
@@ -79,15 +81,26 @@ void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics
 }
 
 // Warns of joints in joint_limits.yaml that the URDF does not have: the file is probably outdated.
+// If the names only lack the URDF's prefix, says so.
 void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || robot.tree.nameless) return;
+  std::set<std::string> all;
+  for (const auto& [name, joint] : robot.limits_file->joints) all.insert(name);
+  const std::string& file = robot.limits_file->file;
+  if (const auto mismatch = find_prefix_mismatch({}, all, robot.tree)) {
+    return diagnostics.warn({ProblemKind::invalid,
+                             "other-prefix",
+                             file,
+                             file + ": none of its limits apply: " +
+                                 to_text(*mismatch, file, "joint_limits_prefix", robot.tree),
+                             {}});
+  }
   std::string names;
   for (const auto& [name, joint] : robot.limits_file->joints) {
     if (robot.tree.by_joint.contains(name) || names.size() > 200) continue;
     names += (names.empty() ? "" : ", ") + name;
   }
   if (names.empty()) return;
-  const std::string& file = robot.limits_file->file;
   diagnostics.warn(
       {ProblemKind::invalid, "unknown-name", file,
        file + ": joints that are not in " + robot.tree.file + " are left out: " + names, names});

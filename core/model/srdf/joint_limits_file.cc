@@ -213,7 +213,7 @@ YAML::Node holder_of_limits(YAML::Node node) {
 }
 
 std::optional<LimitsFile> read_document(const YAML::Node& document, const std::string& file,
-                                        Diagnostics& diagnostics) {
+                                        const std::string& prefix, Diagnostics& diagnostics) {
   const YAML::Node holder = holder_of_limits(document);
   const YAML::Node joints = holder.IsMap() ? holder["joint_limits"] : YAML::Node();
   if (!holder.IsMap() || !joints || !(joints.IsMap() || joints.IsNull())) {
@@ -227,7 +227,7 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
   check_scaling(holder, file, diagnostics);
   LimitsFile limits{.file = file, .joints = {}};
   for (const auto& member : joints) {
-    const std::string name = scalar_of(member.first);
+    const std::string name = prefix + scalar_of(member.first);
     const std::string place = at_line(file, member.first.Mark()) + ": joint " + name;
     const auto [entry, first] = limits.joints.emplace(name, LimitsFile::Joint{place, {}, {}});
     if (first) {
@@ -246,10 +246,10 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
 
 std::optional<LimitsFile> read_limits_file(const std::string& text,
                                            const std::filesystem::path& path,
-                                           Diagnostics& diagnostics) {
+                                           const std::string& prefix, Diagnostics& diagnostics) {
   const std::string file = path.filename().string();
   try {
-    return read_document(YAML::Load(text), file, diagnostics);
+    return read_document(YAML::Load(text), file, prefix, diagnostics);
   } catch (const YAML::Exception& error) {
     diagnostics.add({ProblemKind::malformed,
                      "yaml-malformed",

@@ -23,10 +23,12 @@ struct LimitsFile {
 
 // Reads the text of a joint_limits.yaml that was loaded from `path`. The limits may be nested as in
 // ROS 2's parameter files. A limit applies unless its has_..._limits is false, as in MoveIt.
-// Default scaling factors are only checked, because they affect only MoveIt's planning. Returns
-// nullopt, with the reasons in `diagnostics`, if the text is not YAML or has no joint_limits.
+// Default scaling factors are only checked, because they affect only MoveIt's planning. `prefix` is
+// prepended to the joint names. Returns nullopt, with the reasons in `diagnostics`, if the text is
+// not YAML or has no joint_limits.
 [[nodiscard]] std::optional<LimitsFile> read_limits_file(const std::string& text,
                                                          const std::filesystem::path& path,
+                                                         const std::string& prefix,
                                                          Diagnostics& diagnostics);
 
 }  // namespace armloom

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/model/srdf/srdf_groups.h"
+#include "core/model/srdf/srdf_names.h"
+#include "core/model/urdf/lacking_prefix.h"
 #include "core/model/xml/robot_file.h"
 #include "core/model/xml/xml_element.h"
 
@@ -97,7 +99,8 @@ class SrdfReader {
       if (type == nullptr || std::string_view(type) == "fixed") return;
       place.warn("moving-base",
                  std::string("it makes the robot's base ") + type +
-                     "; here the base does not move: the cell's \"base\" places it",
+                     ", but here the base stays where the cell's \"base\" places it: what the arms "
+                     "meet elsewhere is not checked",
                  std::string(type));
     });
     return names;
@@ -247,11 +250,19 @@ class SrdfReader {
 std::optional<RobotSemantics> read_srdf(std::string text, const std::filesystem::path& path,
                                         const RobotTree& tree,
                                         const std::set<std::string>& used_groups,
-                                        Diagnostics& diagnostics) {
+                                        const std::string& prefix, Diagnostics& diagnostics) {
   const std::string file = told_file_name(path);
   tinyxml2::XMLDocument document;
-  const auto* srdf = parse_robot_xml(text, file, document, diagnostics);
+  auto* srdf = parse_robot_xml(text, file, document, diagnostics);
   if (srdf == nullptr) return std::nullopt;
+  const SrdfNames names = names_in_srdf(*srdf);
+  const auto mismatch = find_prefix_mismatch(names.links, names.joints, tree);
+  if (mismatch && !mismatch->lacking.contains(prefix)) {
+    XmlPlace(file, srdf->GetLineNum(), "robot", diagnostics)
+        .report("other-prefix", to_text(*mismatch, file, "srdf_prefix", tree));
+    return std::nullopt;
+  }
+  prepend_to_names(prefix, *srdf);
   RobotSemantics semantics = SrdfReader(*srdf, file, tree, diagnostics).read(used_groups);
   semantics.file = file;
   semantics.text = std::move(text);

@@ -36,12 +36,11 @@ struct RobotSemantics {
 // Reads an SRDF that was loaded from `path`: groups, group states and enabled or disabled
 // collisions. Virtual joints are ignored, because the cell file places the base. As in MoveIt,
 // elements with unknown names are left out with a warning. Faulty elements that the `used_groups`
-// do not need are also left out with a warning. Returns nullopt, with the reasons in `diagnostics`,
-// if the text is not XML.
-[[nodiscard]] std::optional<RobotSemantics> read_srdf(std::string text,
-                                                      const std::filesystem::path& path,
-                                                      const RobotTree& tree,
-                                                      const std::set<std::string>& used_groups,
-                                                      Diagnostics& diagnostics);
+// do not need are also left out with a warning. `prefix` is prepended to all joint and link names.
+// Returns nullopt, with the reasons in `diagnostics`, if the text is not XML, or if its names lack
+// a prefix that the URDF's names have (lacking_prefix.h).
+[[nodiscard]] std::optional<RobotSemantics> read_srdf(
+    std::string text, const std::filesystem::path& path, const RobotTree& tree,
+    const std::set<std::string>& used_groups, const std::string& prefix, Diagnostics& diagnostics);
 
 }  // namespace armloom
