@@ -3,6 +3,7 @@
 #include "server/api/job_answers.h"
 #include "server/api/route.h"
 #include "server/messages/job_amendment.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 namespace {
@@ -61,6 +62,7 @@ Route amend_route() {
   route.refuses = {404, 409, 412, 422, 507};
   route.who = Who::commander;
   route.role = Role::operate;
+  route.as_text = job_text;
   route.run = amend_job;
   return route;
 }

@@ -92,6 +92,10 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
 // Returns why the store refuses writes, or nullopt.
 [[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
 
+// Answer 404 for a job or an arm with this name, with the nearest name that exists.
+[[nodiscard]] Response no_such_job(const ApiParts& parts, const std::string& key);
+[[nodiscard]] Response no_such_arm(const ApiParts& parts, const std::string& name);
+
 // Counts `jobs` against the client's limit of jobs per second. Beyond the limit, answers 429 and
 // returns true.
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
