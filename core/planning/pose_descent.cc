@@ -11,6 +11,10 @@ constexpr int kStepsMax = 100;
 constexpr double kStepLongest = 0.5;  // rad or m
 constexpr double kDamping = 0.1;
 constexpr double kConverged = 1e-7;  // m and rad
+// A search that is this far off (m and rad) and moves no joint by more than kStill (rad or m) has
+// ended in a local minimum: the remaining steps cannot reach the pose.
+constexpr double kFarOff = 1e-2;
+constexpr double kStill = 1e-5;
 
 }  // namespace
 
@@ -42,11 +46,13 @@ Eigen::VectorXd descend(const Cell& cell, const Arm& arm, const KdlChain& chain,
     Eigen::VectorXd step = A.transpose() * damped.ldlt().solve(e);
     const double longest = step.lpNorm<Eigen::Infinity>();
     if (longest > kStepLongest) step *= kStepLongest / longest;
+    const Eigen::VectorXd before = q;
     q += step;
     for (Eigen::Index j = 0; j < q.size(); ++j) {
       const Joint& joint = cell.joint(arm.joints[static_cast<std::size_t>(j)]);
       q[j] = std::clamp(q[j], joint.lower, joint.upper);
     }
+    if (e.norm() > kFarOff && (q - before).lpNorm<Eigen::Infinity>() < kStill) break;
   }
   return q;
 }

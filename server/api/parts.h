@@ -40,7 +40,7 @@ struct ApiParts {
   WallClock& clock;  // used on the server's thread
   RealTimeLoop& loop;
   Hub& hub;
-  const RecentStates& states;
+  RecentStates& states;
   Recording* recording;  // null if nothing is recorded
   JobKeeper* keeper;     // null if jobs are not stored
   AlertBook& alerts;

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/import/import_cell.h"
 
 namespace armloom {
@@ -81,7 +82,10 @@ bool write_new(const fs::path& file, const std::string& text) {
 int import_robots(const ImportOptions& options) {
   const auto request = request_of(options);
   if (!request) return refuse("", request.error());
-  const auto imported = import_cell(*request);
+  const auto imported = [&] {
+    const Progress progress("import");
+    return import_cell(*request);
+  }();
   if (!imported) return refuse("", imported.error());
   if (options.out.empty()) {
     std::cout << imported->text << std::flush;

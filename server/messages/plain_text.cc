@@ -34,7 +34,9 @@ std::string printed(const char* format, double number) {
   std::snprintf(text, sizeof text, format, number);
   return text;
 }
-std::string in_seconds(double s) { return printed(s < 9.95 ? "%.1f s" : "%.0f s", std::max(0.0, s)); }
+std::string in_seconds(double s) {
+  return printed(s < 9.95 ? "%.1f s" : "%.0f s", std::max(0.0, s));
+}
 std::string percent(const Schema& of) {
   return printed("%.0f %%", std::floor(100.0 * number_at(of, "progress").value_or(0.0)));
 }
@@ -105,7 +107,8 @@ std::string evidence_of(const Schema& wait) {
   const Schema& links = list_at(wait, "links");
   const auto clearance = number_at(wait, "clearance_m");
   if (links.size() < 2 || !clearance) return "";
-  std::string text = joined(links, " and ") + " would be " + distance_text(*clearance);
+  std::string text = joined(links, " and ") + " would " + (*clearance < 0.0 ? "" : "be ") +
+                     distance_text(*clearance);
   if (const auto own = number_at(wait, "own_time_s"))
     text += ", " + in_seconds(*own) + " into its motion";
   if (const auto other = number_at(wait, "other_time_s")) {
@@ -296,7 +299,7 @@ std::string news_of(const std::string& type, const Schema& data) {
 
 std::string distance_text(double clearance_m) {
   const std::string mm = printed("%.1f mm", 1e3 * std::abs(clearance_m));
-  return clearance_m < 0.0 ? "overlapping by " + mm : mm + " apart";
+  return clearance_m < 0.0 ? "overlap by " + mm : mm + " apart";
 }
 
 std::string job_text(const Schema& job, double now_s) {
@@ -350,7 +353,8 @@ std::string problem_text(const Schema& problem) {
   const auto line = [](const Schema& fault) {
     const std::string pointer = text_at(fault, "pointer");
     const std::string detail = text_at(fault, "detail");
-    std::string text = pointer.empty() ? detail : pointer + ": " + detail;
+    std::string text =
+        pointer.empty() || pointer == "request target" ? detail : pointer + ": " + detail;
     const auto value = fault.find("value");
     if (value != fault.end()) {
       const std::string found = value->is_string() ? value->get<std::string>() : value->dump();

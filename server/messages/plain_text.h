@@ -22,7 +22,7 @@ namespace armloom {
 // Returns one line for an event, or "" for a state frame. `message` is the envelope.
 [[nodiscard]] std::string event_text(const Schema& message);
 
-// Returns "4.0 mm apart", or "overlapping by 3.0 mm" for a negative clearance.
+// Returns "4.0 mm apart", or "overlap by 3.0 mm" for a negative clearance.
 [[nodiscard]] std::string distance_text(double clearance_m);
 
 }  // namespace armloom
