@@ -52,8 +52,9 @@ TEST_F(AnswerForm, EndsWithANewlineAndIsIndentedIfAsked) {
 
 TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
   start(1.0);
-  ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside).dump()).status, 202);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside).dump()).status, 202);
+  wait_until([this] { return !get("/api/v1/jobs/wave").json()["waits_on"].empty(); });
   const std::string text = "Accept: text/plain\r\n";
   const auto why = ask("/jobs/wave", text);
   EXPECT_EQ(why.headers.at("content-type"), "text/plain; charset=utf-8");
@@ -80,7 +81,9 @@ TEST_F(AnswerForm, IsCompressedAboveOneKilobyte) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   for (int i = 0; i < 5; ++i) {
-    ASSERT_EQ(post("/api/v1/jobs", job("j" + std::to_string(i), kHome, kHome).dump()).status, 202);
+    json body = job("j" + std::to_string(i), kHome, kHome);
+    body["name"] = std::string(200, 'n');
+    ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
   }
   const std::string gzip = "Accept-Encoding: gzip\r\n";
   const auto packed = ask("/jobs?state=queued&arm=right", gzip), jobs = ask("/jobs", gzip);
