@@ -158,7 +158,7 @@ std::string end_of_waiting(const Schema& job, double now_s) {
   return text;
 }
 
-// What a client can do about a wait.
+// Says what a client can do about a wait.
 std::string remedy_of(const Schema& job) {
   const std::string id = text_at(job, "id");
   const std::string cancel = "cancel it with DELETE /api/v1/jobs/" + id;

@@ -53,8 +53,9 @@ TEST_F(AnswerForm, EndsWithANewlineAndIsIndentedIfAsked) {
 TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  test::Listener listener(port());
   ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside).dump()).status, 202);
-  wait_until([this] { return !get("/api/v1/jobs/wave").json()["waits_on"].empty(); });
+  next_job(listener, "wave", [](const json& told) { return !told["waits_on"].empty(); });
   const std::string text = "Accept: text/plain\r\n";
   const auto why = ask("/jobs/wave", text);
   EXPECT_EQ(why.headers.at("content-type"), "text/plain; charset=utf-8");

@@ -48,10 +48,10 @@ TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
 }
 
 TEST_F(RemoteCommand, ExplainsWhatIsWrong) {
-  const auto nobody = ask(1, "jobs");
-  EXPECT_EQ(nobody.exit_code, 69);
-  EXPECT_NE(nobody.err.find("http://127.0.0.1:1 "), std::string::npos) << nobody.err;
-  EXPECT_NE(nobody.err.find("ARMLOOM_URL"), std::string::npos) << nobody.err;
+  const auto unreached = ask(1, "jobs");
+  EXPECT_EQ(unreached.exit_code, 69);
+  EXPECT_NE(unreached.err.find("http://127.0.0.1:1 "), std::string::npos) << unreached.err;
+  EXPECT_NE(unreached.err.find("ARMLOOM_URL"), std::string::npos) << unreached.err;
   EXPECT_EQ(run("why a --url ftp://x").exit_code, 2);
   const std::string tokens = (folder_ / "tokens").string();
   const auto added = run("token add --tokens " + tokens + " --name a --role viewer");
