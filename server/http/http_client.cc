@@ -168,10 +168,10 @@ Result<ClientResponse> follow(const ServerUrl& server, const ClientRequest& requ
       return response_of(parser);
     }
     ErrorCode ec;
-    while (!ec && !parser.is_done() && take_lines(parser.get().body(), take)) {
+    for (bool goes_on = true; goes_on && !ec && !parser.is_done();) {
       stream.read_some(parser, ec);
+      goes_on = take_lines(parser.get().body(), take);
     }
-    (void)take_lines(parser.get().body(), take);
     parser.get().body().clear();
     return response_of(parser);
   } catch (const boost::system::system_error& error) {

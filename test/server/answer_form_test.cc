@@ -81,9 +81,11 @@ TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
 TEST_F(AnswerForm, IsCompressedAboveOneKilobyte) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  test::Listener listener(port());
+  const std::string id(100, 'x');
   for (int i = 0; i < 5; ++i) {
-    json body = job("j" + std::to_string(i), kHome, kHome);
-    body["name"] = std::string(200, 'n');
+    json body = job(id + std::to_string(i), kHome, kHome);
+    body["name"] = std::string(250, 'n');
     ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
   }
   const std::string gzip = "Accept-Encoding: gzip\r\n";
@@ -93,13 +95,14 @@ TEST_F(AnswerForm, IsCompressedAboveOneKilobyte) {
   EXPECT_EQ(json::parse(unpacked(jobs.body))["jobs"].size(), 5U);
   EXPECT_EQ(ask("/jobs", "").headers.count("content-encoding"), 0U);
 
-  const std::string big = "/jobs/j0?pretty";  // indented, a job has more than one kilobyte
-  const auto one = ask(big, gzip);
-  const std::string tag = one.headers.at("etag");
-  ASSERT_TRUE(tag.ends_with("-pretty-gzip\"")) << tag;
+  next_job(listener, id + "4", [](const json& told) { return !told["waits_on"].empty(); });
+  const std::string one = "/jobs/" + id + "4", big = one + "?pretty";
+  const auto shown = ask(big, gzip);
+  const std::string tag = shown.headers.at("etag");
+  ASSERT_TRUE(tag.ends_with("-pretty-gzip\"")) << tag << unpacked(shown.body);
   EXPECT_EQ(ask(big, gzip + "If-None-Match: " + tag + "\r\n").status, 304);
   EXPECT_EQ(ask(big, "If-None-Match: " + tag + "\r\n").status, 200) << "another form";
-  EXPECT_EQ(ask("/jobs/j0", "If-Match: " + tag + "\r\n", "DELETE").status, 202) << "the same job";
+  EXPECT_EQ(ask(one, "If-Match: " + tag + "\r\n", "DELETE").status, 202) << "the same job";
 }
 
 TEST_F(AnswerForm, LocatesBelowThePathOfAReverseProxy) {

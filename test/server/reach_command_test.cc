@@ -53,7 +53,7 @@ TEST_F(ReachCommand, WritesTablesAndAPicture) {
 // On one core, so that it takes longer than the two seconds without progress.
 TEST_F(ReachCommand, ShowsProgressOnATerminalOnly) {
   const std::string command =
-      std::string(ARMLOOM_BINARY) + " reach --step 0.2 --cell " + test::kCell;
+      std::string(ARMLOOM_BINARY) + " reach --step 0.22 --cell " + test::kCell;
   const std::string typed = (folder_ / "typed").string();
   ASSERT_EQ(std::system(("taskset -c 0 script -qec '" + command + "' /dev/null >" + typed).c_str()),
             0);

@@ -29,7 +29,7 @@ TEST_F(RemoteCommand, ShowsJobsAndStopsArms) {
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(test::request(port, "GET", "/api/v1/queue").json()["stopped"], false);
   const auto why = ask(port, "why reach");
-  EXPECT_TRUE(why.out.starts_with("Job reach of arm left is ")) << why.out;
+  EXPECT_TRUE(why.out.starts_with("Job reach of arm left ")) << why.out;
   EXPECT_EQ(json::parse(ask(port, "why reach --json").out)["id"], "reach");
   const auto all = ask(port, "stop");
   EXPECT_EQ(all.exit_code, 0);
