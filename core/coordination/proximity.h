@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +25,13 @@ struct Proximity {
 
   bool operator==(const Proximity&) const = default;
 };
+
+// Returns a length in words: "3.0 mm".
+[[nodiscard]] inline std::string in_mm(double length_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * std::abs(length_m));
+  return text;
+}
 
 // Returns the evidence with the bodies swapped.
 [[nodiscard]] inline Proximity turned_around(Proximity proximity) {

@@ -89,7 +89,8 @@ struct JobMotionView {
   Duration duration{};
   std::optional<bool> planned;  // for a goal; if false, the duration is an estimate
   std::optional<bool> retimed;  // for a trajectory, true if the server computed its times
-  double progress = 0.0;        // 0..1
+  std::optional<double> velocity_scaling;  // for a goal, in (0, 1]; `duration` includes it
+  double progress = 0.0;                   // 0..1
   bool stopping = false;
 };
 struct JobView {
@@ -106,6 +107,8 @@ struct JobView {
   std::vector<WaitView> waits_on;
   std::vector<std::string> cycle;       // keys of the deadlock cycle, this job first
   std::optional<JobResultView> result;  // when ended
+  // Only in the answer to an amendment: why it changes nothing at present.
+  std::optional<std::string> notice = {};
 
   [[nodiscard]] std::optional<Reason> reason() const {
     return result ? std::optional(result->reason) : std::nullopt;

@@ -27,14 +27,15 @@ void find_outside_limits(const Cell& cell, const MotionGoal& goal, Problems& pro
   }
 }
 
-// How long it may take: the straight line; of a pose, whose joint positions are not known yet, the
-// way home.
+// Estimates the motion by the straight line in joint space at the goal's speed. The joint positions
+// of a pose are not known yet; for a pose, the line leads home.
 TrajectoryPtr estimate(const Cell& cell, const MotionGoal& goal, const Configuration& rest) {
   const Arm& arm = cell.arm(goal.arm);
   const auto* q = std::get_if<Eigen::VectorXd>(&goal.to);
   const Eigen::VectorXd& to = q != nullptr ? *q : arm.home;
-  auto line = joint_line(cell, arm.joints, joints_of(rest, arm.joints), to);
-  if (!line) line = joint_line(cell, arm.joints, to, to);  // it stands outside its limits
+  auto line = joint_line(cell, arm.joints, joints_of(rest, arm.joints), to, goal.speed);
+  if (!line)
+    line = joint_line(cell, arm.joints, to, to, goal.speed);  // it stands outside its limits
   return *line;
 }
 

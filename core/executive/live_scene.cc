@@ -71,11 +71,14 @@ Result<void> LiveScene::change(std::vector<CollisionObject> objects) {
   for (const NearPair& closer : query.near_pairs(measured_())) {
     const Proximity pair = query.describe(closer);
     if (!pair.object_b) continue;
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "%s would be %.4f m from %s at its present position, limit %.4f m",
-                  pair.body_b.c_str(), pair.clearance_m, pair.body_a.c_str(), pair.limit_m);
-    return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
+    char figures[96];
+    std::snprintf(figures, sizeof figures, pair.clearance_m < 0.0 ? "overlap " : "be %.4f m from ",
+                  pair.clearance_m);
+    std::string text = pair.body_b + " would " + figures + pair.body_a + " at its present position";
+    if (pair.clearance_m < 0.0) text += " by " + in_mm(pair.clearance_m);
+    std::snprintf(figures, sizeof figures, ", limit %.4f m", pair.limit_m);
+    return failure(
+        Problem{ProblemKind::conflict, "object-in-arm", "", text + figures, pair.clearance_m});
   }
   now_ = {std::move(*scene), now_.version + 1};
   told_.changed(std::move(query));

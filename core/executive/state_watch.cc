@@ -6,11 +6,13 @@
 namespace armloom {
 
 std::string sentence(const MonitorFinding& finding) {
-  char text[256];
-  std::snprintf(text, sizeof text, "monitor: %s and %s at %.4f m, limit %.4f m",
-                finding.proximity.body_a.c_str(), finding.proximity.body_b.c_str(),
-                finding.proximity.clearance_m, finding.limit_m);
-  return text;
+  const Proximity& pair = finding.proximity;
+  char figures[96];
+  std::snprintf(figures, sizeof figures, " at %.4f m", pair.clearance_m);
+  std::string text = "monitor: " + pair.body_a + " and " + pair.body_b;
+  text += pair.clearance_m < 0.0 ? " overlap by " + in_mm(pair.clearance_m) : figures;
+  std::snprintf(figures, sizeof figures, ", limit %.4f m", finding.limit_m);
+  return text + figures;
 }
 
 ClearanceQuery StateWatch::query_of(const PlanningScenePtr& scene) {

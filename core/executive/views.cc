@@ -1,5 +1,6 @@
 #include "core/executive/views.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -135,11 +136,17 @@ DetourView view_of(const Detour& detour) {
   return view;
 }
 
+// A job that continues after a pause is scheduled again. Clients see the first start.
+std::optional<TimePoint> first_scheduled(const JobTimes& times) {
+  if (!times.scheduled_at || !times.started_at) return times.scheduled_at;
+  return std::min(*times.scheduled_at, *times.started_at);
+}
+
 JobTimesView times_of(const Job& job) {
   return {.submitted_at = job.times.submitted_at,
           .backlogged_at = job.times.backlogged_at,
           .expires_at = expiry_of(job),
-          .scheduled_at = job.times.scheduled_at,
+          .scheduled_at = first_scheduled(job.times),
           .started_at = job.times.started_at,
           .ended_at = job.ended_at()};
 }
@@ -150,6 +157,8 @@ JobMotionView motion_of(const Job& job) {
   return {.duration = duration,
           .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
           .retimed = is_retimed ? std::optional(true) : std::nullopt,
+          .velocity_scaling =
+              job.goal ? std::optional(job.goal->ways[job.goal->taken].goal.speed) : std::nullopt,
           .progress = to_seconds(job.progress) / to_seconds(duration),
           .stopping = job.stopping()};
 }

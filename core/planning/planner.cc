@@ -200,9 +200,11 @@ std::string reason_name(Reason reason) {
 }
 
 std::string in_words(const Proximity& p, double moves_m) {
-  const std::string distance =
-      p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
+  const std::string distance = p.clearance_m > 0.0   ? " is " + mm(p.clearance_m) + " from "
+                               : p.clearance_m < 0.0 ? " overlaps "
+                                                     : " touches ";
   std::string text = p.body_a + distance + p.body_b;
+  if (p.clearance_m < 0.0) text += " by " + mm(-p.clearance_m);
   const bool is_contact_alone = p.limit_m <= kTouching_m;  // the required clearance is zero
   text += "; " + (is_contact_alone ? "contact is not allowed" : mm(p.limit_m) + " are required");
   if (p.clearance_m < p.limit_m) return text;

@@ -29,8 +29,7 @@ class PoseSearch {
         standing_(joints_of(at, arm_.joints)) {}
 
   tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> run() {
-    forward_kinematics(cell_, at_, X_WL_);
-    const auto chain = chain_to(cell_, goal_.arm, goal_.link, X_WL_);
+    const auto chain = find_chain();
     if (!chain) {
       return tl::unexpected(PlanRefusal{Reason::goal_not_reached,
                                         "link " + cell_.link(goal_.link).name +
@@ -45,7 +44,25 @@ class PoseSearch {
     return solutions_;
   }
 
+  std::optional<Eigen::VectorXd> first(
+      const std::function<bool(const Eigen::VectorXd&)>& is_usable) {
+    const auto chain = find_chain();
+    if (!chain) return std::nullopt;
+    for (const Eigen::VectorXd& from : seeds()) {
+      const std::size_t known = solutions_.size();
+      take(descend(cell_, arm_, *chain, goal_.X_WL, from));
+      if (solutions_.size() > known && is_usable(solutions_.back())) return solutions_.back();
+      if (solutions_.size() >= kPoseSolutionsMax) break;
+    }
+    return std::nullopt;
+  }
+
  private:
+  std::optional<KdlChain> find_chain() {
+    forward_kinematics(cell_, at_, X_WL_);
+    return chain_to(cell_, goal_.arm, goal_.link, X_WL_);
+  }
+
   [[nodiscard]] std::vector<Eigen::VectorXd> seeds() const {
     std::vector<Eigen::VectorXd> seeds{standing_, arm_.home};
     for (const auto& [name, q] : arm_.named_states) seeds.push_back(q);
@@ -127,6 +144,12 @@ tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> reach_pose(const Cell& c
                                                                    const PoseGoal& goal,
                                                                    const Configuration& at) {
   return PoseSearch(cell, goal, at).run();
+}
+
+std::optional<Eigen::VectorXd> first_at_pose(
+    const Cell& cell, const PoseGoal& goal, const Configuration& at,
+    const std::function<bool(const Eigen::VectorXd&)>& is_usable) {
+  return PoseSearch(cell, goal, at).first(is_usable);
 }
 
 }  // namespace armloom

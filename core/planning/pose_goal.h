@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -32,5 +34,11 @@ inline constexpr std::size_t kPoseSolutionsMax = 16;
 // found. Thread-safe and deterministic.
 [[nodiscard]] tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> reach_pose(
     const Cell& cell, const PoseGoal& goal, const Configuration& at);
+
+// Returns the first of these solutions, in the order of the seeds, for which `is_usable` returns
+// true, or nullopt. Faster than reach_pose() if a usable solution exists.
+[[nodiscard]] std::optional<Eigen::VectorXd> first_at_pose(
+    const Cell& cell, const PoseGoal& goal, const Configuration& at,
+    const std::function<bool(const Eigen::VectorXd&)>& is_usable);
 
 }  // namespace armloom

@@ -1,8 +1,10 @@
 #include "core/planning/tool_reach.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <thread>
 #include <utility>
 
 #include "core/base/nearest_name.h"
@@ -62,32 +64,29 @@ const std::array<Eigen::Matrix3d, kReachDirections>& turns() {
   return kTurns;
 }
 
+// Looks for one direction of an arm's tool at all places, one after the other.
 class ToolSweep {
  public:
-  ToolSweep(const PlanningScenePtr& scene, ArmId arm, LinkId tool)
+  ToolSweep(const PlanningScenePtr& scene, ArmId arm, LinkId tool, std::size_t direction)
       : cell_(scene->cell()),
         arm_(arm),
         tool_(tool),
+        turn_(turns()[direction]),
         at_(cell_.home()),
-        lines_(scene, arm, at_, cell_.checking.tracking_error_rad, others()) {
-    stands_.fill(cell_.arm(arm).home);
-  }
+        lines_(scene, arm, at_, cell_.checking.tracking_error_rad, others()),
+        stands_(cell_.arm(arm).home) {}
 
-  // Returns true if the tool reaches this place in this direction. The search starts from the last
-  // solution for the direction.
-  bool reaches(const Eigen::Vector3d& place, std::size_t direction) {
+  // Returns true if the tool reaches this place. The search starts from the last solution.
+  bool reaches(const Eigen::Vector3d& place) {
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
     X_WL.translation() = place;
-    X_WL.linear() = turns()[direction];
-    set_joints(at_, cell_.arm(arm_).joints, stands_[direction]);
-    const auto found = reach_pose(cell_, {arm_, tool_, X_WL}, at_);
-    if (!found) return false;
-    for (const Eigen::VectorXd& q : *found) {
-      if (!lines_.is_free(q, q)) continue;
-      stands_[direction] = q;
-      return true;
-    }
-    return false;
+    X_WL.linear() = turn_;
+    set_joints(at_, cell_.arm(arm_).joints, stands_);
+    const auto found =
+        first_at_pose(cell_, {arm_, tool_, X_WL}, at_,
+                      [this](const Eigen::VectorXd& q) { return lines_.is_free(q, q); });
+    if (found) stands_ = *found;
+    return found.has_value();
   }
 
  private:
@@ -102,9 +101,10 @@ class ToolSweep {
   const Cell& cell_;
   ArmId arm_;
   LinkId tool_;
+  Eigen::Matrix3d turn_;
   Configuration at_;
   LineChecker lines_;
-  std::array<Eigen::VectorXd, kReachDirections> stands_;
+  Eigen::VectorXd stands_;
 };
 
 struct ReachBall {
@@ -126,6 +126,45 @@ ReachGrid grid_over(const std::vector<ReachBall>& balls, double step_m) {
     grid.count[static_cast<std::size_t>(i)] = static_cast<int>(std::max(0.0, last - first + 1.0));
   }
   return grid;
+}
+
+// Sweeps each direction of each arm on its own, so that the result does not depend on the number of
+// threads.
+void sweep_all(const PlanningScenePtr& scene, const std::vector<ReachBall>& balls,
+               const std::function<void(double)>& on_progress, ToolReach& reach) {
+  const std::size_t places = reach.grid.places();
+  const std::size_t sweeps = reach.arms.size() * kReachDirections;
+  std::vector<std::vector<std::uint8_t>> reached(sweeps, std::vector<std::uint8_t>(places, 0));
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < sweeps; i = next++) {
+      const std::size_t a = i / kReachDirections;
+      ToolSweep sweep(scene, reach.arms[a].arm, reach.arms[a].tool, i % kReachDirections);
+      for (std::size_t place = 0; place < places; ++place) {
+        const Eigen::Vector3d p = reach.grid.at(place);
+        const bool is_near = (p - balls[a].centre).norm() <= balls[a].radius_m;
+        reached[i][place] = is_near && sweep.reaches(p) ? 1 : 0;
+        const std::size_t count = ++done;
+        if (on_progress) {
+          on_progress(static_cast<double>(count) / static_cast<double>(sweeps * places));
+        }
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+    work();
+  }
+  for (std::size_t a = 0; a < reach.arms.size(); ++a) {
+    std::vector<std::uint8_t>& directions = reach.arms[a].directions;
+    directions.assign(places, 0);
+    for (std::size_t d = 0; d < kReachDirections; ++d) {
+      for (std::size_t place = 0; place < places; ++place) {
+        directions[place] += reached[a * kReachDirections + d][place];
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -186,18 +225,7 @@ Result<ToolReach> tool_reach(const PlanningScenePtr& scene, const ReachQuestion&
                                " are checked: give a larger step",
                            question.step_m});
   }
-  for (std::size_t a = 0; a < reach.arms.size(); ++a) {
-    ArmReach& arm = reach.arms[a];
-    ToolSweep sweep(scene, arm.arm, arm.tool);
-    arm.directions.assign(reach.grid.places(), 0);
-    for (std::size_t place = 0; place < arm.directions.size(); ++place) {
-      const Eigen::Vector3d p = reach.grid.at(place);
-      if ((p - balls[a].centre).norm() > balls[a].radius_m) continue;
-      for (std::size_t d = 0; d < kReachDirections; ++d) {
-        if (sweep.reaches(p, d)) ++arm.directions[place];
-      }
-    }
-  }
+  sweep_all(scene, balls, question.on_progress, reach);
   return reach;
 }
 

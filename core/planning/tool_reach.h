@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct ReachQuestion {
   double step_m = 0.1;  // of the grid
   // The tool, with or without the robot's prefix; by default the link of each arm's last joint.
   std::optional<std::string> link = {};
+  // Called after each place with the share of the work that is done, 0 to 1. May be null. Called on
+  // several threads at once.
+  std::function<void(double)> on_progress = {};
 };
 
 // Grid points, x fastest, then y, then z.
@@ -54,7 +58,8 @@ inline constexpr std::size_t kReachPlacesMax = 200'000;
 // Counts the poses that each arm's tool reaches on the grid. A pose is reached if inverse
 // kinematics (pose_goal.h) finds joint positions at which the arm keeps its clearance from the
 // scene and itself. Other arms are ignored. The grid covers a ball around each arm's first joint
-// that the arm's tool cannot leave. Deterministic. Problems: "--link" (an arm has no such link),
+// that the arm's tool cannot leave. Deterministic; uses all cores. Problems: "--link" (an arm has
+// no such link),
 // "--step" (the grid has too many places).
 [[nodiscard]] Result<ToolReach> tool_reach(const PlanningScenePtr& scene,
                                            const ReachQuestion& question);

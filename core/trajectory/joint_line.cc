@@ -40,7 +40,8 @@ void reverse(Eigen::Matrix<double, Eigen::Dynamic, 6>& c, double h) {
 }  // namespace
 
 Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& joints,
-                                 const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+                                 const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                 std::optional<double> speed) {
   const auto size = static_cast<Eigen::Index>(joints.size());
   if (from.size() != size || to.size() != size) {
     throw std::invalid_argument("joint_line: give one position for each joint");
@@ -52,7 +53,7 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
     request.joint_names.push_back(joint.name);
     duration_s = std::max(duration_s, least_duration_s(joint, std::abs(to[j] - from[j])));
   }
-  duration_s /= cell.execution.velocity_scaling_factor;
+  duration_s /= speed.value_or(cell.execution.velocity_scaling_factor);
   // Round up to whole nanoseconds.
   duration_s = std::min(std::ceil(duration_s * 1e9) / 1e9, 2 * kDurationMax_s);
   request.points = {at_rest(from, 0.0), at_rest(to, duration_s)};
@@ -60,9 +61,10 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
 }
 
 TrajectoryPtr line_or_stay(const Cell& cell, const std::vector<JointId>& joints,
-                           const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-  auto line = joint_line(cell, joints, from, to);
-  if (!line) line = joint_line(cell, joints, to, to);
+                           const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                           std::optional<double> speed) {
+  auto line = joint_line(cell, joints, from, to, speed);
+  if (!line) line = joint_line(cell, joints, to, to, speed);
   return line ? *line : nullptr;
 }
 

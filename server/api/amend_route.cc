@@ -3,6 +3,7 @@
 #include "server/api/job_answers.h"
 #include "server/api/route.h"
 #include "server/messages/job_amendment.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 namespace {
@@ -12,6 +13,22 @@ void answer_amended(const ApiParts& parts, const JobView& job, const Respond& re
   parts.keeper->amend(job, [&parts, job, respond](const std::optional<Refusal>& refusal) {
     respond(refusal ? refusal_response(*refusal) : job_answer(200, job, parts.clock));
   });
+}
+
+// Says if a new priority changes nothing at present, because a job that this one waits for has
+// started.
+std::optional<std::string> notice_of(const Executive& executive, const JobView& job,
+                                     const JobAmendment& amendment) {
+  if (!amendment.terms.priority) return std::nullopt;
+  for (const WaitView& wait : job.waits_on) {
+    if (wait.kind != Wait::Kind::job) continue;
+    const auto blocker = executive.job(wait.job);
+    if (!blocker || !blocker->times.started_at || is_terminal(blocker->state)) continue;
+    return "job " + job.key + " waits for job " + blocker->key +
+           ", which has started: the priority changes nothing until " + blocker->key +
+           " has passed or ended";
+  }
+  return std::nullopt;
 }
 
 void amend_job(Call call) {
@@ -26,7 +43,9 @@ void amend_job(Call call) {
         parts,
         [key, if_match, amendment = std::move(amendment)](Executive& executive) {
           return commanded(executive, key, if_match, [&](Executive& it, const std::string& job) {
-            return it.amend(job, amendment);
+            auto amended = it.amend(job, amendment);
+            if (amended) amended->notice = notice_of(it, *amended, amendment);
+            return amended;
           });
         },
         [&parts, key, if_match, respond](const Commanded& job) {
@@ -61,6 +80,7 @@ Route amend_route() {
   route.refuses = {404, 409, 412, 422, 507};
   route.who = Who::commander;
   route.role = Role::operate;
+  route.as_text = job_text;
   route.run = amend_job;
   return route;
 }

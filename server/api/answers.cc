@@ -10,13 +10,14 @@ namespace {
 
 Response of_problem(int status, std::string body) {
   return Response{
-      status, "application/problem+json", std::move(body), {{"Cache-Control", "no-store"}}};
+      status, "application/problem+json", std::move(body) + '\n', {{"Cache-Control", "no-store"}}};
 }
 
 }  // namespace
 
 Response json_response(int status, std::string body) {
-  return Response{status, "application/json", std::move(body), {{"Cache-Control", "no-store"}}};
+  return Response{
+      status, "application/json", std::move(body) + '\n', {{"Cache-Control", "no-store"}}};
 }
 
 Response problem_response(const Problems& problems) {

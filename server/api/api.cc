@@ -2,9 +2,22 @@
 
 #include <utility>
 
+#include "core/executive/status_board.h"
+#include "server/api/answer_form.h"
 #include "server/api/route.h"
 
 namespace armloom {
+
+// Adds the answer's text for people, which counts times from the present cell time.
+Respond Api::with_text(const Route& route, Respond respond) const {
+  return [this, as_text = route.as_text, respond = std::move(respond)](Response response) {
+    if (response.status < 300) {
+      response.as_text = [as_text, now_s = to_seconds(parts_.loop.board().read().time)](
+                             std::string_view json) { return as_text(Schema::parse(json), now_s); };
+    }
+    respond(std::move(response));
+  };
+}
 
 void Api::add_routes(Router& router) {
   for (const Route& route : all_routes()) {
@@ -13,11 +26,14 @@ void Api::add_routes(Router& router) {
     for (const Parameter& parameter : route.parameters) {
       if (std::string_view(parameter.in) == "query") parameters.push_back(parameter.name);
     }
+    if (route.answers_json()) parameters.emplace_back(kPretty);
     router.add(
         route.method, route.path, route.rights(),
-        [this, run = route.run](const Request& request, const Router::Arguments& arguments,
-                                Respond respond) {
-          run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});
+        [this, &route](const Request& request, const Router::Arguments& arguments,
+                       Respond respond) {
+          if (const auto bad = bad_pretty(request.target)) return respond(refusal_response(*bad));
+          if (route.as_text != nullptr) respond = with_text(route, std::move(respond));
+          route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});
         },
         std::move(parameters));
   }

@@ -7,6 +7,8 @@
 
 namespace armloom {
 
+struct Route;
+
 // The HTTP interface of one server session. The parts must outlive the Api, and the Api must
 // outlive all calls of the router.
 class Api {
@@ -19,6 +21,8 @@ class Api {
   void add_routes(Router& router);
 
  private:
+  [[nodiscard]] Respond with_text(const Route& route, Respond respond) const;
+
   ApiParts parts_;
   CellMeshes meshes_;
   RecordingFiles recordings_;

@@ -4,6 +4,7 @@
 #include "core/executive/status_board.h"
 #include "server/api/route.h"
 #include "server/messages/arm.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 namespace {
@@ -19,7 +20,7 @@ void list_arms(Call call) {
 // nullopt.
 std::optional<ArmId> named_arm(const Call& call) {
   const auto arm = call.parts.cell->find_arm(call.arguments.front());
-  if (!arm) call.respond(no_such("arm", call.arguments.front()));
+  if (!arm) call.respond(no_such_arm(call.parts, call.arguments.front()));
   return arm;
 }
 
@@ -102,23 +103,27 @@ std::vector<Route> arm_routes() {
   stop_one.outcomes = {outcome(202, "The arm brakes on its path and stays stopped", arm_format())};
   stop_one.refuses = {404};
   stop_one.is_never_limited = true;
+  stop_one.as_text = arm_text;
   stop_one.run = stop_arm;
   Route resume_one = command("/arms/{name}/resume", "resumeArm", "Resume one arm");
   resume_one.outcomes = {outcome(
       202, "The arm is resumed; its job continues as soon as its path is certified collision-free",
       arm_format())};
   resume_one.refuses = {404};
+  resume_one.as_text = arm_text;
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");
   stop.outcomes = {
       outcome(202, "All arms brake on their paths and stay stopped", stopped_format())};
   stop.is_never_limited = true;
+  stop.as_text = stopped_text;
   stop.run = stop_all;
   Route resume = command("/resume", "resumeAll", "Resume all arms");
   resume.outcomes = {outcome(
       202,
       "All arms are resumed; jobs continue as soon as their paths are certified collision-free",
       stopped_format())};
+  resume.as_text = stopped_text;
   resume.run = resume_all;
   return {
       {.method = "GET",
@@ -127,6 +132,7 @@ std::vector<Route> arm_routes() {
        .tag = "arms",
        .summary = "List all arms",
        .outcomes = {outcome(200, "All arms with their measured positions", arm_list_format())},
+       .as_text = arm_list_text,
        .run = list_arms},
       {.method = "GET",
        .path = api_path("/arms/{name}"),
@@ -135,6 +141,7 @@ std::vector<Route> arm_routes() {
        .summary = "Get one arm",
        .outcomes = {outcome(200, "The arm with its measured position", arm_format())},
        .refuses = {404},
+       .as_text = arm_text,
        .run = get_arm},
       stop_one,
       resume_one,

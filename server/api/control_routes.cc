@@ -127,7 +127,7 @@ void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
   const auto begin = [&parts, arm, respond = call.respond](const JogRequest& jog) {
-    if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
+    if (!parts.cell->find_arm(arm)) return respond(no_such_arm(parts, arm));
     Control& control = control_of(parts);
     if (const auto is_holder = control.check(jog.control); !is_holder) {
       return respond(problem_response(is_holder.error()));
@@ -159,7 +159,7 @@ void renew_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
   const auto renew = [&parts, arm, respond = call.respond](const ControlKey& shown) {
-    if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
+    if (!parts.cell->find_arm(arm)) return respond(no_such_arm(parts, arm));
     Control& control = control_of(parts);
     if (const auto is_holder = control.check(shown.control); !is_holder) {
       return respond(problem_response(is_holder.error()));

@@ -65,6 +65,7 @@ Response refused_command(const ApiParts& parts, const std::string& key, const Pr
   const auto stored = stored_job(parts, key);
   const bool ended_before =
       stored && *stored && (*stored)->has_ended && problems.front().kind == ProblemKind::not_found;
+  if (!ended_before && problems.front().slug == "no-such-job") return no_such_job(parts, key);
   if (!ended_before) return problem_response(problems);
   return problem_response({Problem{ProblemKind::conflict, "job-has-ended", "",
                                    "job \"" + key + "\" has ended: " + (*stored)->state, key}});

@@ -12,6 +12,7 @@
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
+#include "server/messages/plain_text.h"
 #include "server/messages/timeline.h"
 
 namespace armloom {
@@ -64,7 +65,7 @@ void get_job(Call call) {
   }
   const auto stored = stored_job(parts, key);
   if (!stored) return call.respond(problem_response(stored.error()));
-  call.respond(*stored ? job_answer(**stored) : no_such("job", key));
+  call.respond(*stored ? job_answer(**stored) : no_such_job(parts, key));
 }
 
 template <class Command>
@@ -133,7 +134,7 @@ void get_diagram(Call call) {
   });
 }
 
-std::string queue_text(const Status& status, const WallClock& clock, JobTexts& texts) {
+std::string queue_json(const Status& status, const WallClock& clock, JobTexts& texts) {
   QueueJobs queue{status.policy, status.stopped, {}, {}, {}, {}};
   const auto list_of = [&](JobState state) -> std::vector<ListedJob>* {
     const auto list = queue_list_of(state);
@@ -154,7 +155,7 @@ void get_queue(Call call) {
   const ApiParts& parts = call.parts;
   parts.listings.write(
       [status = parts.loop.board().read(), clock = parts.clock](JobTexts& texts) {
-        return queue_text(status, clock, texts);
+        return queue_json(status, clock, texts);
       },
       [respond = call.respond](std::string text) { respond(json_response(200, std::move(text))); });
 }
@@ -193,6 +194,7 @@ Route replan_route() {
   replan.refuses = {404, 409, 412, 507};
   replan.who = Who::commander;
   replan.role = Role::operate;
+  replan.as_text = job_text;
   replan.run = replan_job;
   return replan;
 }
@@ -235,12 +237,14 @@ std::vector<Route> job_routes() {
   list.parameters = job_query().parameters();
   list.outcomes = {outcome(200, "A page of jobs", job_page_format())};
   list.refuses = {422};
+  list.as_text = job_page_text;
   list.run = list_jobs;
 
   Route get = of_one("GET", "/jobs/{id}", "getJob", "Get one job");
   get.outcomes = {outcome(200, "The job", job_format())};
   get.outcomes.front().has_tag = true;
   get.refuses = {404};
+  get.as_text = job_text;
   get.run = get_job;
 
   Route cancel = of_one("DELETE", "/jobs/{id}", "cancelJob", "Cancel a job");
@@ -251,12 +255,14 @@ std::vector<Route> job_routes() {
   cancel.refuses = {404, 409, 412, 507};
   cancel.who = Who::commander;
   cancel.role = Role::operate;
+  cancel.as_text = job_text;
   cancel.run = cancel_job;
 
   Route queue = of_one("GET", "/queue", "getQueue", "Get all waiting and running jobs");
   queue.outcomes = {
       outcome(200, "Jobs in the queue, in the backlog (with reasons), scheduled and running",
               queue_format())};
+  queue.as_text = armloom::queue_text;
   queue.run = get_queue;
 
   return {

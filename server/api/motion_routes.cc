@@ -10,7 +10,7 @@ void get_trajectory(Call call) {
   ask(
       parts, [key](Executive& executive) { return executive.trajectory(key); },
       [&parts, respond = call.respond, key](const TrajectoryPtr& trajectory) {
-        if (trajectory == nullptr) return respond(no_such("job", key));
+        if (trajectory == nullptr) return respond(no_such_job(parts, key));
         respond(
             answer(200, job_motion_format(),
                    JobMotion{key, trajectory->duration(), request_of(*trajectory, *parts.cell)}));

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "server/api/answer_form.h"
 #include "server/api/route.h"
 #include "server/codec/schema_names.h"
 #include "server/codec/value_formats.h"
@@ -70,7 +71,10 @@ Schema header() {
        "replace an emergency stop.\n\nLengths are in m, angles in rad. Times are seconds of cell "
        "time (keys end in `_s`) or RFC 3339 wall time (`_at`). Every path that serves GET also "
        "serves HEAD; other methods are answered 405 with `Allow`. Errors are RFC 9457 problem "
-       "documents that name the place and the value found."},
+       "documents that name the place and the value found.\n\nAnswers above 1 kB are compressed if "
+       "the client accepts gzip. With `?pretty`, JSON is indented. With `Accept: text/plain`, "
+       "problems, jobs, arms and the queue are answered as text for people, whose wording is not "
+       "part of the contract; other answers remain JSON."},
       {"license", {{"name", "BSD-3-Clause"}, {"identifier", "BSD-3-Clause"}}}};
 }
 
@@ -106,6 +110,7 @@ Schema parameters_of(const Route& route) {
     one["schema"] = parameter.schema;
     list.push_back(std::move(one));
   }
+  if (route.answers_json()) list.push_back({{"$ref", "#/components/parameters/Pretty"}});
   return list;
 }
 
@@ -226,6 +231,12 @@ const Schema& openapi_document() {
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
     add_discriminator(schemas["Message"]);
     whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
+    whole["components"]["parameters"]["Pretty"] = {
+        {"name", kPretty},
+        {"in", "query"},
+        {"description", "1 or no value: indent the JSON of the answer, for people"},
+        {"allowEmptyValue", true},
+        {"schema", {{"type", "string"}, {"enum", {"", "0", "1"}}}}};
     whole["components"]["headers"]["RequestId"] = {
         {"description",
          "Id of the request, also in the server's log: the X-Request-Id of the request if it has 1 "

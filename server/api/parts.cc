@@ -4,6 +4,9 @@
 #include <chrono>
 #include <sstream>
 
+#include "core/base/nearest_name.h"
+#include "core/executive/status_board.h"
+
 namespace armloom {
 namespace {
 
@@ -23,6 +26,35 @@ tl::unexpected<Problems> unsupported(const char* slug, const char* field, std::s
 
 std::optional<Refusal> refusal_of_store(const ApiParts& parts) {
   return parts.keeper != nullptr ? parts.keeper->refusal() : std::nullopt;
+}
+
+namespace {
+
+Response no_such(const char* what, const std::string& name, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  const auto nearest = nearest_name(name, names);
+  const std::string remedy = nearest ? "; did you mean " + std::string(*nearest) + "?" : "";
+  return problem_response(
+      {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",
+               std::string("no such ") + what + " \"" + name + "\"" + remedy, name}});
+}
+
+}  // namespace
+
+Response no_such_job(const ApiParts& parts, const std::string& key) {
+  constexpr std::size_t kCompared = 300;  // the newest; each comparison takes a microsecond
+  std::vector<std::string> known;
+  parts.loop.board().read().jobs.newest_first([&](const JobSheet::JobPtr& job) {
+    known.push_back(job->key);
+    return known.size() < kCompared;
+  });
+  return no_such("job", key, known);
+}
+
+Response no_such_arm(const ApiParts& parts, const std::string& name) {
+  std::vector<std::string> known;
+  for (const Arm& arm : parts.cell->arms) known.push_back(arm.name);
+  return no_such("arm", name, known);
 }
 
 bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,

@@ -41,7 +41,7 @@ struct ApiParts {
   WallClock& clock;  // used on the server's thread
   RealTimeLoop& loop;
   Hub& hub;
-  const RecentStates& states;
+  RecentStates& states;
   Recording* recording;  // null if nothing is recorded
   JobKeeper* keeper;     // null if jobs are not stored
   AlertBook& alerts;
@@ -92,6 +92,10 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
 
 // Returns why the store refuses writes, or nullopt.
 [[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
+
+// Answer 404 for a job or an arm with this name, with the nearest name that exists.
+[[nodiscard]] Response no_such_job(const ApiParts& parts, const std::string& key);
+[[nodiscard]] Response no_such_arm(const ApiParts& parts, const std::string& name);
 
 // Counts `jobs` against the client's limit of jobs per second. Beyond the limit, answers 429 and
 // returns true.

@@ -76,6 +76,10 @@ template <class Number>
   return true;
 }
 
+[[nodiscard]] inline std::string whole(double bound) {
+  return std::to_string(static_cast<std::int64_t>(bound));
+}
+
 // Describes a parameter that may have any text. If the member belongs to a base class of T, the
 // caller must name T: text<AuditQuery>(...).
 
@@ -109,6 +113,22 @@ template <class T, class Of, class Number, class Value>
            {{"type", "integer"}, {"minimum", lowest}, {"maximum", highest}}},
           [where, lowest, highest, rule](const std::string& value, T& out) {
             Value number{};
+            const bool is_read = read_between(value, lowest, highest, number);
+            if (is_read) out.*where = number;
+            return is_read ? std::nullopt : std::optional(rule + value + "\"");
+          }};
+}
+
+template <class T, class Number>
+[[nodiscard]] QueryPart<T> number(std::string name, Number T::*where, double lowest, double highest,
+                                  std::string description) {
+  const std::string rule =
+      name + " must be a number within " + whole(lowest) + ".." + whole(highest) + ", found \"";
+  return {{std::move(name),
+           std::move(description),
+           {{"type", "number"}, {"minimum", as_json(lowest)}, {"maximum", as_json(highest)}}},
+          [where, lowest, highest, rule](const std::string& value, T& out) {
+            double number{};
             const bool is_read = read_between(value, lowest, highest, number);
             if (is_read) out.*where = number;
             return is_read ? std::nullopt : std::optional(rule + value + "\"");

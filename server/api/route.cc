@@ -21,6 +21,13 @@ const std::vector<Route>& all_routes() {
   return routes;
 }
 
+bool Route::answers_json() const {
+  return std::ranges::any_of(outcomes, [](const Outcome& outcome) {
+    return std::ranges::any_of(
+        outcome.content, [](const Content& content) { return content.type == "application/json"; });
+  });
+}
+
 std::vector<int> common_refusals(const Route& route) {
   std::vector<int> statuses{400, 413, 414, 417, 431, 503};
   if (route.rights().is_counted()) statuses.push_back(429);

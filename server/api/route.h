@@ -64,8 +64,11 @@ struct Route {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;  // nullopt if no token is required
   bool is_never_limited = false;            // exempt from ClientLimits
-  void (*run)(Call call);                   // not served by the router if null
+  // Returns the answer as text for people; null if it has none. See server/messages/plain_text.h.
+  std::string (*as_text)(const Schema& answer, double now_s) = nullptr;
+  void (*run)(Call call);  // not served by the router if null
 
+  [[nodiscard]] bool answers_json() const;
   [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };
 

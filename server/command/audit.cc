@@ -5,6 +5,7 @@
 
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/recording/states_csv.h"
 
 namespace armloom {
@@ -73,7 +74,10 @@ int audit_recording(const AuditOptions& options) {
     return kExitBadInput;
   }
   for (const std::string& warning : warnings) std::cerr << "armloom: warning: " << warning << '\n';
-  const auto report = audit(*loaded->cell, *states, from_seconds(options.step_s));
+  const auto report = [&] {
+    const Progress progress("audit of " + std::to_string(states->size()) + " states");
+    return audit(*loaded->cell, *states, from_seconds(options.step_s));
+  }();
   if (!report) {
     complain(options.cell_file, report.error());
     return kExitBadInput;

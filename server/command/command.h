@@ -13,9 +13,10 @@ namespace armloom {
 
 // Exit codes of every command.
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFound = 1;        // negative result, for example a contact
-inline constexpr int kExitBadInput = 2;     // one sentence on stderr for each fault
-inline constexpr int kExitNotWritten = 74;  // output not written completely (EX_IOERR)
+inline constexpr int kExitFound = 1;         // negative result, for example a contact
+inline constexpr int kExitBadInput = 2;      // one sentence on stderr for each fault
+inline constexpr int kExitUnavailable = 69;  // the server cannot be reached (EX_UNAVAILABLE)
+inline constexpr int kExitNotWritten = 74;   // output not written completely (EX_IOERR)
 
 struct ServeOptions {
   std::string cell_file;

@@ -6,17 +6,24 @@
 #include "server/command/command.h"
 #include "server/command/compare_report.h"
 #include "server/command/headless.h"
+#include "server/command/progress.h"
 
 namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Nobody final : public Observer {
+class ShowsTime final : public Observer {
  public:
+  explicit ShowsTime(Progress& progress) : progress_(progress) {}
   void on_event(const Event&) override {}
-  void on_tick(TimePoint, const Configuration&) override {}
+  void on_tick(TimePoint now, const Configuration&) override {
+    progress_.cell_time(to_seconds(now));
+  }
   void on_state(const StateFrame&) override {}
+
+ private:
+  Progress& progress_;
 };
 
 // Reads "a,b". Problems: an unknown or repeated name.
@@ -59,13 +66,13 @@ std::vector<Duration> work_done(const SimulationResult& result, const Cell& cell
 }
 
 Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const JobsFile& file,
-                        const CompareOptions& options) {
+                        const CompareOptions& options, Progress& progress) {
   ExecutiveOptions executive_options;
   executive_options.policy = policy;
   executive_options.seed = options.seed;
-  Nobody nobody;
+  ShowsTime shows_time(progress);
   auto result =
-      simulate(cell, executive_options, {file.jobs, time_limit(file.jobs, {}, *cell)}, nobody);
+      simulate(cell, executive_options, {file.jobs, time_limit(file.jobs, {}, *cell)}, shows_time);
   if (!result) return failure(std::move(result.error()));
 
   complain_of_refusals(*result, options.jobs_file, policy);
@@ -120,12 +127,15 @@ int compare_policies(const CompareOptions& options) {
     comparison.busiest_work = *most;
   }
   bool all_ended = true;
+  std::optional<Progress> progress(std::in_place, "compare");
   for (const std::string& policy : *policies) {
-    auto compared = run(policy, loaded->cell, *jobs, options);
+    progress->part(comparison.runs.size() + 1, policies->size());
+    auto compared = run(policy, loaded->cell, *jobs, options, *progress);
     if (!compared) return refuse(options.cell_file, compared.error());
     all_ended = all_ended && compared->all_ended && compared->summary.jobs.at("refused") == 0;
     comparison.runs.push_back(std::move(*compared));
   }
+  progress.reset();
 
   std::cout << comparison_markdown(comparison) << std::flush;
   if (files) {

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/import/import_cell.h"
 
 namespace armloom {
@@ -97,7 +98,10 @@ int import_robots(const ImportOptions& options) {
   const auto request = request_of(options);
   if (!request) return refuse("", request.error());
   const Detail detail = options.verbose ? Detail::all : Detail::one_of_each_kind;
-  const auto imported = import_cell(*request);
+  const auto imported = [&] {
+    const Progress progress("import");
+    return import_cell(*request);
+  }();
   if (!imported) return refuse("", imported.error(), detail);
   if (options.out.empty()) {
     std::cout << imported->text << std::flush;

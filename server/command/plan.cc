@@ -8,6 +8,7 @@
 #include "core/trajectory/set_joints.h"
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/trajectory_request.h"
 
@@ -138,7 +139,10 @@ int plan_way(const PlanOptions& options) {
   const auto questions = questions_of(options, *loaded->cell);
   if (!questions) return refuse("plan", questions.error());
   std::vector<RefusedArm> refused;
-  const auto first = first_there(*scene, *questions, refused);
+  const auto first = [&] {
+    const Progress progress("plan");
+    return first_there(*scene, *questions, refused);
+  }();
   if (!first) return say(refused), kExitFound;
   const auto& [arm, planned] = *first;
 

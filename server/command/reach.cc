@@ -5,6 +5,7 @@
 #include "core/planning/tool_reach.h"
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/command/reach_picture.h"
 
 namespace armloom {
@@ -107,7 +108,11 @@ int show_reach(const ReachOptions& options) {
   if (!scene) return refuse(options.cell_file, scene.error());
   ReachQuestion question{.step_m = options.step_m};
   if (!options.link.empty()) question.link = options.link;
-  const auto reach = tool_reach(*scene, question);
+  const auto reach = [&] {
+    Progress progress("reach");
+    question.on_progress = [&progress](double done) { progress.share(done); };
+    return tool_reach(*scene, question);
+  }();
   if (!reach) return refuse("reach", reach.error());
   options.json ? print_json(*reach, *loaded->cell) : print_table(*reach, *loaded->cell);
   if (options.picture.empty()) return kExitDone;

@@ -7,6 +7,7 @@
 
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
+#include "server/command/progress.h"
 #include "server/messages/events.h"
 #include "server/messages/problem.h"
 #include "server/replay/input_file.h"
@@ -75,7 +76,10 @@ class EventComparison final : public Observer {
     if (events_ < recorded_.size() && !differs_) compare(recorded_[events_], replayed);
     ++events_;
   }
-  void on_tick(TimePoint, const Configuration&) override {}
+  void on_tick(TimePoint now, const Configuration&) override {
+    if (progress_ != nullptr) progress_->cell_time(to_seconds(now));
+  }
+  void show(Progress* progress) { progress_ = progress; }
   void on_state(const StateFrame&) override {}
 
   [[nodiscard]] TimePoint end() const {
@@ -116,6 +120,7 @@ class EventComparison final : public Observer {
 
   std::vector<std::string> recorded_;
   std::ofstream out_;
+  Progress* progress_ = nullptr;
   std::size_t events_ = 0;
   std::optional<Difference> differs_;
 };
@@ -188,12 +193,16 @@ int replay_recording(const ReplayOptions& options) {
       std::max(comparison.end(), Replay::time_of(lines.back()).value_or(TimePoint{}));
   std::optional<TimePoint> until;
   if (options.until_s) until = std::min(end, TimePoint(from_seconds(*options.until_s)));
+  std::optional<Progress> progress(std::in_place, "replay");
+  comparison.show(&*progress);
   auto done = run(**replay, lines, until);
   if (!done) {
     complain((*folder / InputFile::kName).string(), done.error());
     return done.error().front().slug == "diverged" ? 1 : kExitBadInput;
   }
   (*replay)->run_until(until.value_or(end));
+  comparison.show(nullptr);
+  progress.reset();
   done->ended = (*replay)->executive().now();
   comparison.expect_all_until(done->ended);
   return tell(*folder, *done, comparison);

@@ -6,6 +6,7 @@
 #include "server/codec/stream_id.h"
 #include "server/command/command.h"
 #include "server/command/headless.h"
+#include "server/command/progress.h"
 #include "server/messages/events.h"
 #include "server/messages/fault.h"
 #include "server/recording/recording.h"
@@ -16,8 +17,8 @@ namespace {
 // Writes the recording and counts backlogged jobs.
 class Watcher final : public Observer {
  public:
-  Watcher(Recording* recording, std::string stream)
-      : recording_(recording), stream_(std::move(stream)) {}
+  Watcher(Recording* recording, std::string stream, Progress& progress)
+      : recording_(recording), stream_(std::move(stream)), progress_(progress) {}
 
   void on_event(const Event& event) override {
     if (const auto* job = std::get_if<JobView>(&event.body)) {
@@ -26,6 +27,7 @@ class Watcher final : public Observer {
     if (recording_ != nullptr) recording_->event(event_json(event, stream_, nullptr));
   }
   void on_tick(TimePoint now, const Configuration& measured) override {
+    progress_.cell_time(to_seconds(now));
     if (recording_ != nullptr) recording_->state(now, measured);
   }
   void on_rest(bool at_rest) override {
@@ -38,6 +40,7 @@ class Watcher final : public Observer {
  private:
   Recording* recording_;
   std::string stream_;
+  Progress& progress_;
   std::set<std::string> backlogged_;
 };
 
@@ -95,9 +98,11 @@ int simulate_jobs(const SimulateOptions& options) {
   ExecutiveOptions executive_options;
   executive_options.policy = options.policy;
   executive_options.seed = options.seed;
-  Watcher watcher(recording.get(), stream_of_seed(options.seed));
+  std::optional<Progress> progress(std::in_place, "simulate");
+  Watcher watcher(recording.get(), stream_of_seed(options.seed), *progress);
   auto result = simulate(loaded->cell, executive_options,
                          {std::move(jobs->jobs), limit, std::move(faults)}, watcher);
+  progress.reset();
   if (!result) {
     Problems problems = std::move(result.error());
     if (!options.policy.empty()) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kHead =
     "HTTP/1.1 200 OK\r\nServer: armloom\r\nContent-Type: text/event-stream\r\n"
-    "Cache-Control: no-store\r\nConnection: close\r\n";
+    "Cache-Control: no-store\r\nConnection: close\r\n"
+    "X-Accel-Buffering: no\r\n";  // reverse proxies must pass on each event at once
 
 std::string head(const Request& request) {
   std::string text(kHead);

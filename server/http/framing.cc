@@ -43,39 +43,69 @@ bool valid_authority(std::string_view text) {
 }
 
 std::optional<FramingFault> framing_fault(const FramingFields& fields) {
-  const auto fault = [](std::string detail, std::optional<std::string_view> value = {}) {
-    return FramingFault{value ? detail + ": \"" + std::string(*value) + "\"" : std::move(detail),
+  const auto fault = [](const char* field, std::string detail,
+                        std::optional<std::string_view> value = {}) {
+    return FramingFault{field,
+                        value ? detail + ": \"" + std::string(*value) + "\"" : std::move(detail),
                         value ? std::optional<std::string>(*value) : std::nullopt};
   };
-  if (fields.hosts.empty() && fields.http_1_1) return fault("the Host field is missing");
-  if (fields.hosts.size() > 1) {
-    return fault("the Host field occurs more than once, the second time", fields.hosts[1]);
-  }
+  if (fields.hosts.empty() && fields.http_1_1) return fault("Host", "the Host field is missing");
   if (!fields.hosts.empty() && !valid_authority(fields.hosts.front())) {
-    return fault("Host is not a name with an optional port", fields.hosts.front());
+    return fault("Host", "Host is not a name with an optional port", fields.hosts.front());
   }
   const auto& lengths = fields.content_lengths;
-  if (lengths.size() > 1) {
-    return fault("the Content-Length field occurs more than once, the second time", lengths[1]);
-  }
   if (!lengths.empty() &&
       (lengths[0].empty() || !std::all_of(lengths[0].begin(), lengths[0].end(), is_digit))) {
-    return fault("Content-Length is not a number", lengths[0]);
+    return fault("Content-Length", "Content-Length is not a number", lengths[0]);
   }
   const auto& encodings = fields.transfer_encodings;
   if (encodings.empty()) return std::nullopt;
-  if (!fields.http_1_1) return fault("HTTP/1.0 has no Transfer-Encoding, found", encodings[0]);
-  if (!lengths.empty()) {
-    return fault("both Transfer-Encoding and Content-Length are given, the latter", lengths[0]);
+  constexpr const char* kEncoding = "Transfer-Encoding";
+  if (!fields.http_1_1) {
+    return fault(kEncoding, "HTTP/1.0 has no Transfer-Encoding, found", encodings[0]);
   }
-  if (encodings.size() > 1) {
-    return fault("the Transfer-Encoding field occurs more than once, the second time",
-                 encodings[1]);
+  if (!lengths.empty()) {
+    return fault("Content-Length",
+                 "both Transfer-Encoding and Content-Length are given, the latter", lengths[0]);
   }
   if (!equals_ignoring_case(encodings[0], "chunked")) {
-    return fault("the only Transfer-Encoding served is \"chunked\", found", encodings[0]);
+    return fault(kEncoding, "the only Transfer-Encoding served is \"chunked\", found",
+                 encodings[0]);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> prefix_fault(std::string_view prefix) {
+  if (!prefix.starts_with('/') || prefix.starts_with("//")) {
+    return "X-Forwarded-Prefix must begin with one slash, for example /cell7";
+  }
+  const auto is_path_character = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-._~!$&'()*+,;=:@%/").find(c) != std::string_view::npos;
+  };
+  const bool has_dots = (std::string(prefix) + "/").find("/./") != std::string::npos ||
+                        (std::string(prefix) + "/").find("/../") != std::string::npos;
+  if (has_dots || !std::all_of(prefix.begin(), prefix.end(), is_path_character)) {
+    return "X-Forwarded-Prefix must be a path without query and without \".\" and \"..\" segments, "
+           "for example /cell7";
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> folded_field(std::string_view text) {
+  for (std::size_t line = 0;;) {
+    const std::size_t end = text.find("\r\n", line);
+    if (end == text.npos || end == line) return std::nullopt;
+    const std::size_t next = end + 2;
+    if (next < text.size() && (text[next] == ' ' || text[next] == '\t')) {
+      const std::string_view folded = text.substr(line, end - line);
+      const std::string name(line == 0 ? "first" : folded.substr(0, folded.find(':')));
+      return Refusal{400, "bad-request",
+                     "the " + name + " field continues on a second line (obs-fold): send it on one",
+                     name};
+    }
+    line = next;
+  }
 }
 
 std::string host_of(std::string_view authority) {

@@ -18,6 +18,7 @@ struct FramingFields {
 };
 
 struct FramingFault {
+  std::string field;
   std::string detail;
   std::optional<std::string> value;  // of the field
 };
@@ -30,6 +31,15 @@ struct FramingFault {
 
 // Checks a Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
 [[nodiscard]] bool valid_authority(std::string_view text);
+
+// Returns why X-Forwarded-Prefix cannot be put before a path, or nullopt. It must begin with one
+// slash and consist of path characters (RFC 3986, 3.3) without "." and ".." segments; a browser
+// would take "//host" for another site.
+[[nodiscard]] std::optional<std::string> prefix_fault(std::string_view prefix);
+
+// Returns the refusal of a header with a field that continues on a second line (obs-fold; RFC 9112,
+// 5.2), or nullopt. `text` is the input from the request line on.
+[[nodiscard]] std::optional<Refusal> folded_field(std::string_view text);
 
 // Returns true if a browser's Origin ("http://host:port") is this site. Protects against CSRF:
 // pages of other sites must not stop arms or post jobs through a visitor's browser. `is_sealed`:

@@ -118,18 +118,30 @@ Refusal refusal_of(int status, const Problem& problem) {
                  value != nullptr ? std::optional(*value) : std::nullopt};
 }
 
+void vary_by(Response& response, std::string_view names) {
+  const auto vary =
+      std::ranges::find(response.headers, "Vary", &std::pair<std::string, std::string>::first);
+  if (vary == response.headers.end()) {
+    response.headers.emplace_back("Vary", names);
+  } else {
+    vary->second.append(", ").append(names);
+  }
+}
+
+void answer_below_prefix(const Request& request, Response& response) {
+  const auto location =
+      std::ranges::find(response.headers, "Location", &std::pair<std::string, std::string>::first);
+  if (location != response.headers.end() && location->second.starts_with('/')) {
+    location->second.insert(0, request.prefix);
+  }
+}
+
 void answer_across_origins(const Request& request, Response& response) {
   if (!request.cross_origin) return;
   response.headers.emplace_back("Access-Control-Allow-Origin", *request.cross_origin);
   response.headers.emplace_back("Access-Control-Expose-Headers",
                                 "ETag, Location, Retry-After, X-Request-Id");
-  const auto vary =
-      std::ranges::find(response.headers, "Vary", &std::pair<std::string, std::string>::first);
-  if (vary != response.headers.end()) {
-    vary->second += ", Origin";
-  } else {
-    response.headers.emplace_back("Vary", "Origin");
-  }
+  vary_by(response, "Origin");
 }
 
 void answer_conditionally(const Request& request, Response& response) {

@@ -61,7 +61,9 @@ struct Request {
   std::string peer = {};                            // client address
   std::string id = {};                              // for X-Request-Id: the client's, or generated
   std::optional<std::string> idempotency_key = {};  // identifies a repeated request
-  std::string accept_encoding = {};                 // all values, comma-separated
+  std::string accept = {};                          // all values, comma-separated
+  std::string accept_encoding = {};                 // likewise
+  std::string prefix = {};                          // path that a reverse proxy removes: "/cell7"
   std::optional<Refusal> stranger = {};             // refuses every request (Host not allowed)
   std::optional<std::string> cross_origin = {};     // allowed Origin of another site
   std::optional<Refusal> foreign = {};              // refuses commands (page of another site)
@@ -123,11 +125,21 @@ struct Response {
   std::shared_ptr<const std::string> shared = {};
   std::optional<PiecedBody> pieces = {};  // instead of `body`
   bool is_routine = false;                // a frequent command that leaves no audit entry
+  // Returns the JSON body as text for people, for clients that prefer text/plain; may be null. May
+  // run on another thread.
+  std::function<std::string(std::string_view json)> as_text = {};
 };
 
 // Sends the response. Call exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
 using WriteRefusal = std::function<Response(const Refusal&)>;
+
+// Adds names of request headers to Vary.
+void vary_by(Response& response, std::string_view names);
+
+// Puts the path that a reverse proxy removes from requests (X-Forwarded-Prefix) before the path in
+// Location.
+void answer_below_prefix(const Request& request, Response& response);
 
 // Adds CORS headers if the requesting page's origin is allowed.
 void answer_across_origins(const Request& request, Response& response);

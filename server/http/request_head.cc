@@ -1,6 +1,7 @@
 #include "server/http/request_head.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <utility>
@@ -47,8 +48,13 @@ std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::st
   if (origin == header.end() || same_origin(view(origin->value()), authority, hosts.is_sealed)) {
     return std::nullopt;
   }
-  return Refusal{403, "foreign-origin", "pages of another site may not command this server",
-                 std::nullopt, std::string(origin->value())};
+  const std::string site(origin->value());
+  const bool is_site = split_absolute_target(site).has_value();
+  return Refusal{403, "foreign-origin",
+                 "pages of another site may not command this server" +
+                     (is_site ? ": to allow this site, start the server with --allow-origin " + site
+                              : std::string()),
+                 "Origin", site};
 }
 
 // Returns the token of the Authorization header ("Bearer <token>"), or else of the first cookie
@@ -83,6 +89,34 @@ std::optional<std::string> allowed_origin(const RequestHeader& header, const Hos
   return may ? std::move(origin) : std::nullopt;
 }
 
+// Fields of which a request may have only one. If there were two, this server and a proxy before it
+// could each use another one.
+struct SingleField {
+  std::string_view name;
+  bool is_secret = false;
+};
+constexpr std::array<SingleField, 13> kSingleFields{{{"Host"},
+                                                     {"Content-Length"},
+                                                     {"Transfer-Encoding"},
+                                                     {"Content-Type"},
+                                                     {"Content-Encoding"},
+                                                     {"Authorization", true},
+                                                     {"Origin"},
+                                                     {"Idempotency-Key"},
+                                                     {"If-Match"},
+                                                     {"If-None-Match"},
+                                                     {"Last-Event-ID"},
+                                                     {"X-Request-Id"},
+                                                     {"X-Forwarded-Prefix"}}};
+
+std::string joined(const RequestHeader& header, beast::string_view name) {
+  std::string all;
+  for (const std::string_view value : all_of(header, name)) {
+    all.append(all.empty() ? "" : ", ").append(value);
+  }
+  return all;
+}
+
 tl::expected<Target, Refusal> target_of(const RequestHeader& header, std::string& authority) {
   std::string_view text = view(header.target());
   if (text == "*" && header.method() == http::verb::options) return Target{"*", {}};
@@ -100,13 +134,22 @@ tl::expected<Target, Refusal> target_of(const RequestHeader& header, std::string
 }  // namespace
 
 std::optional<Refusal> header_refusal(const RequestHeader& header) {
+  for (const auto& [name, is_secret] : kSingleFields) {
+    const auto values = all_of(header, {name.data(), name.size()});
+    if (values.size() < 2) continue;
+    Refusal refusal{400, "bad-request",
+                    "the " + std::string(name) + " field occurs more than once: send it once",
+                    std::string(name)};
+    if (!is_secret) refusal.value = std::string(values[1]);
+    return refusal;
+  }
   FramingFields fields;
   fields.http_1_1 = header.version() >= 11;
   fields.hosts = all_of(header, "Host");
   fields.transfer_encodings = all_of(header, "Transfer-Encoding");
   fields.content_lengths = all_of(header, "Content-Length");
   if (const auto fault = framing_fault(fields)) {
-    return Refusal{400, "bad-request", fault->detail, std::nullopt, fault->value};
+    return Refusal{400, "bad-request", fault->detail, fault->field, fault->value};
   }
   const auto expect = header.find(http::field::expect);
   if (fields.http_1_1 && expect != header.end() &&
@@ -171,9 +214,14 @@ tl::expected<Request, Refusal> request_of(const RequestHeader& header, const Hos
   request.idempotency_key = one_of(header, "Idempotency-Key");
   request.if_none_match = one_of(header, "If-None-Match");
   request.if_match = one_of(header, "If-Match");
-  for (const std::string_view value : all_of(header, "Accept-Encoding")) {
-    request.accept_encoding.append(request.accept_encoding.empty() ? "" : ", ").append(value);
+  request.accept = joined(header, "Accept");
+  request.accept_encoding = joined(header, "Accept-Encoding");
+  request.prefix = one_of(header, "X-Forwarded-Prefix").value_or("");
+  if (const auto fault = request.prefix.empty() ? std::nullopt : prefix_fault(request.prefix)) {
+    return tl::unexpected(
+        Refusal{400, "bad-request", *fault, "X-Forwarded-Prefix", request.prefix});
   }
+  while (request.prefix.ends_with('/')) request.prefix.pop_back();
   request.stranger = foreign_host(authority, hosts);
   request.cross_origin = allowed_origin(header, hosts);
   request.foreign = request.stranger ? request.stranger : foreign_origin(header, authority, hosts);

@@ -2,6 +2,7 @@
 
 #include <boost/beast/core/read_size.hpp>
 
+#include "server/http/framing.h"
 #include "server/http/read_deadline.h"
 #include "server/http/request_head.h"
 #include "server/http/session.h"
@@ -106,6 +107,23 @@ Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
   }
 }
 
+// Reads until the header is complete or too long, and refuses obs-fold: the parser would unfold the
+// field.
+Awaitable<std::optional<NoRequest>> read_unfolded(Connection& connection) {
+  ErrorCode ec;
+  for (std::size_t searched = 0;;) {
+    const std::string_view text = held(connection);
+    const std::size_t end = text.find("\r\n\r\n", searched);
+    if (end != text.npos || text.size() >= kHeaderMax) {
+      auto refusal = folded_field(text.substr(0, end));
+      co_return refusal ? std::optional(NoRequest{std::move(refusal)}) : std::nullopt;
+    }
+    searched = text.size() < 3 ? 0 : text.size() - 3;
+    co_await read_some(connection, 4096, ec);
+    if (ec) co_return NoRequest{};
+  }
+}
+
 }  // namespace
 
 Awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
@@ -120,6 +138,7 @@ Awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestP
   }
   const ReadDeadline deadline(connection.stream, times.read);
   auto none = co_await read_first_line(connection);
+  if (!none) none = co_await read_unfolded(connection);
   if (!none) {
     co_await parse(connection, parser, &RequestParser::is_header_done, ec);
     if (ec) none = stopped_by(ec, "");

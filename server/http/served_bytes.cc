@@ -11,12 +11,14 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kPackFrom = 1024;  // smaller bytes fit one packet anyway
+constexpr int kStoredLevel = 6;  // for bytes that are compressed once
 
-std::string gzipped(const std::string& bytes) {
+}  // namespace
+
+std::string gzipped(const std::string& bytes, int level) {
   static constexpr int kGzip = 15 + 16;  // the largest window; a gzip header instead of zlib's
   z_stream stream{};
-  if (deflateInit2(&stream, 6, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+  if (deflateInit2(&stream, level, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
     throw std::runtime_error("zlib cannot start compressing");
   }
   std::string out(deflateBound(&stream, bytes.size()), '\0');
@@ -30,6 +32,8 @@ std::string gzipped(const std::string& bytes) {
   if (ended != Z_STREAM_END) throw std::runtime_error("zlib cannot finish compressing");
   return out;
 }
+
+namespace {
 
 // A coding such as "gzip;q=0.5": name, and whether its weight is above zero.
 struct Coding {
@@ -55,7 +59,7 @@ ServedBytes served(std::string bytes, bool text) {
   result.tag = tag_of(bytes);
   result.plain = std::make_shared<const std::string>(std::move(bytes));
   if (text && result.plain->size() >= kPackFrom) {
-    std::string packed = gzipped(*result.plain);
+    std::string packed = gzipped(*result.plain, kStoredLevel);
     packed.shrink_to_fit();
     if (packed.size() < result.plain->size()) {
       result.packed = std::make_shared<const std::string>(std::move(packed));

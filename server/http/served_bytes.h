@@ -18,6 +18,12 @@ struct ServedBytes {
 // Compresses the bytes if `text` is true and they become smaller.
 [[nodiscard]] ServedBytes served(std::string bytes, bool text);
 
+// Smaller bytes fit one packet anyway and are not compressed.
+inline constexpr std::size_t kPackFrom = 1024;
+
+// `level`: from 1, fast, to 9, small.
+[[nodiscard]] std::string gzipped(const std::string& bytes, int level);
+
 // Returns true if the client accepts gzip (RFC 9110, 12.5.3).
 [[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);
 

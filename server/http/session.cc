@@ -90,6 +90,7 @@ Awaitable<bool> serve_request(Connection& connection, const Site& site) {
     co_return false;
   }
   answer_conditionally(request, response);
+  answer_below_prefix(request, response);
   answer_across_origins(request, response);
   co_return co_await deliver(connection, std::move(response), arrived->delivery, site);
 }

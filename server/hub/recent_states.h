@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "core/base/time.h"
 #include "core/model/cell.h"
@@ -28,11 +30,23 @@ class RecentStates {
   // Precondition: `now` (wall time) and `time` do not decrease between calls.
   void take(TimePoint time, const Configuration& q, Clock::time_point now);
 
+  // Calls then(frames later than `after`), as soon as there are any: now, or with a later take().
+  // At the first take() from `deadline` on, there may be none.
+  using Then = std::function<void(std::vector<FramePtr>)>;
+  void when_later(TimePoint after, Clock::time_point deadline, Then then);
+
+  [[nodiscard]] std::vector<FramePtr> later_than(TimePoint after) const;
   // Oldest first. The frames are immutable, so other threads may read them.
   [[nodiscard]] const std::deque<FramePtr>& frames() const { return frames_; }
 
  private:
+  struct Waiting {
+    TimePoint after;
+    Clock::time_point deadline;
+    Then then;
+  };
   std::deque<FramePtr> frames_;
+  std::vector<Waiting> waiting_;
   Clock::time_point next_{};
 };
 

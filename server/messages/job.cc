@@ -119,12 +119,22 @@ PartPtr<JobTimesView> times_part() {
   });
 }
 
+std::optional<bool> is_estimate(const JobMotionView& motion) {
+  return motion.planned && !*motion.planned ? std::optional(true) : std::nullopt;
+}
+
 PartPtr<JobMotionView> motion_part() {
   return parts<JobMotionView>({
       output_only("progress", &JobMotionView::progress, number(kShare),
                   "Share of the trajectory's time, 0 to 1"),
       output_only("duration_s", &JobMotionView::duration, seconds(kPositive),
-                  "Duration of the trajectory; an estimate until a goal is planned"),
+                  "Duration of the trajectory, velocity scaling included"),
+      output_if(
+          "duration_is_estimate", is_estimate, flag(),
+          "true if `duration_s` is an estimate, because the path to the goal is not planned yet: "
+          "the straight line in joint space at this velocity scaling"),
+      output_if("velocity_scaling_factor", &JobMotionView::velocity_scaling, number(kShare),
+                "For a goal: share of the maximum velocity"),
       output_if("planned", &JobMotionView::planned, flag(),
                 "For a goal: true if the path is planned"),
       output_if("retimed", &JobMotionView::retimed, flag(),
@@ -204,6 +214,8 @@ FormatPtr<JobView> job_format() {
                             "Empty if the job is in no cycle"),
                 output_only("result", &View::result, nullable(result_format()),
                             "Result of an ended job; else null"),
+                output_if("notice", &View::notice, text(),
+                          "Only in the answer to PATCH: why the change has no effect at present"),
             }));
   return format;
 }

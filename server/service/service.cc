@@ -7,6 +7,7 @@
 
 #include "core/executive/real_time_loop.h"
 #include "core/executive/worker.h"
+#include "server/api/answer_form.h"
 #include "server/api/api.h"
 #include "server/api/listings.h"
 #include "server/codec/stream_id.h"
@@ -100,6 +101,10 @@ class Service::Impl {
   void run(bool until_signal) {
     Site site;
     site.handle = [this](const Request& request, Respond respond) {
+      respond = in_asked_form(
+          request, std::move(respond),
+          [this](std::function<void()> task) { forming_.post(std::move(task)); },
+          [this](std::function<void()> task) { http_->post(std::move(task)); });
       router_.dispatch(request, noting(request, std::move(respond)));
     };
     site.refuse_unread = [this](const Request& request) {
@@ -280,6 +285,7 @@ class Service::Impl {
   std::unique_ptr<RealTimeLoop> loop_;
   std::unique_ptr<Listings> listings_;
   Worker worker_;
+  Worker forming_;  // compresses and indents large answers
 };
 
 Result<std::unique_ptr<Service>> Service::start(CellPtr cell, const CellFile& source,

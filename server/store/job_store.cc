@@ -117,7 +117,7 @@ class JobStore::Impl {
       }
       if (write_pending()) {
         // Cleans up here, too, because changes may always be pending.
-        if (Wall::now() >= cleaned_at_ + kCleaned) clean_up();
+        if (options_.now() >= cleaned_at_ + kCleaned) clean_up();
         continue;
       }
       std::unique_lock lock(mutex_);  // wait before the next try
@@ -141,7 +141,7 @@ class JobStore::Impl {
     if (batch.is_empty()) return true;
     const auto begun = Wall::now();
     try {
-      tables_->write(batch);
+      tables_->write(batch, since_begin());
     } catch (const SqlFault& fault) {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
@@ -177,10 +177,14 @@ class JobStore::Impl {
     for (const Pending::Acceptance& one : refused) one.done(false);
   }
 
+  [[nodiscard]] std::chrono::milliseconds since_begin() const {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(options_.now() - steady_began_);
+  }
+
   void clean_up() {
-    cleaned_at_ = Wall::now();
+    cleaned_at_ = options_.now();
     try {
-      if (tables_->clean_up(options_.retention, std::chrono::system_clock::now())) {
+      if (tables_->clean_up(options_.retention, began_, since_begin())) {
         cleaned_at_ -= kCleaned;  // there is more
       }
     } catch (const SqlFault&) {  // reported by the next write
@@ -192,6 +196,8 @@ class JobStore::Impl {
   StoreMark mark_;
   WatchedFiles files_;
   StoreOptions options_;
+  const std::chrono::system_clock::time_point began_ = std::chrono::system_clock::now();
+  const Wall::time_point steady_began_ = options_.now();
   Leftover leftover_;
   std::mutex stops_mutex_;
   mutable std::mutex mutex_;

@@ -26,6 +26,8 @@ struct StoreFault {
 // How much history is kept.
 struct Retention {
   std::size_t jobs_max = 100'000;
+  // Since the job ended, by a clock that only goes forward within a session. Wall time may jump,
+  // for example when a machine without a battery gets the time from the network.
   std::optional<std::chrono::hours> age_max = {};
   std::size_t audit_max = 100'000;  // entries of changes, and as many of refusals
 };
@@ -34,6 +36,8 @@ struct StoreOptions {
   Retention retention = {};
   std::chrono::milliseconds retry{1000};  // pause after a failed write, before the next try
   std::string vfs = {};                   // name of an SQLite VFS; "": the default
+  // The clock by which jobs age. Replaced by tests.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
   // Called on the store's thread when writing fails, and with null when it works again.
   std::function<void(const StoreFault*)> on_fault = {};
   // Called on the store's thread with the duration of each synced transaction.

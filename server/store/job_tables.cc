@@ -23,6 +23,10 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
     throw SqlFault(SqlFault::kNoAccess,
                    "write-ahead logging (WAL) does not work there, as on a network file system");
   }
+  // Jobs that ended in this session, with the time since its begin. In memory only.
+  database.run(
+      "PRAGMA temp_store = MEMORY; CREATE TEMP TABLE ended_now(number INTEGER PRIMARY KEY, at_ms "
+      "INTEGER NOT NULL)");
   database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
                std::to_string(JobTables::kLogKept));
   return database;
@@ -52,6 +56,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
           "arms, view) VALUES(?1, ?2, ?3, ?4, 0, ?5, ?6, ?7, ?8) ON CONFLICT(number) DO UPDATE SET "
           "id = ?2, state = ?3, has_ended = ?4, submitted_ms = ?5, ended_ms = ?6, arms = ?7, "
           "view = ?8")),
+      end_(database_.prepare("INSERT OR IGNORE INTO temp.ended_now VALUES(?1, ?2)")),
       expect_(database_.prepare(
           "INSERT INTO job(number, id, state, has_ended, may_have_moved, arms, view) "
           "VALUES(?1, '', '', 0, 0, '[]', '') ON CONFLICT(number) DO NOTHING")),
@@ -150,9 +155,9 @@ Leftover JobTables::leftover() const {
 
 void JobTables::leave_log() { database_.keep_log(true); }
 
-void JobTables::write(const Pending& changes) {
+void JobTables::write(const Pending& changes, std::chrono::milliseconds now) {
   Transaction transaction(database_);
-  for (const auto& [number, change] : changes.jobs) write(number, change);
+  for (const auto& [number, change] : changes.jobs) write(number, change, now);
   if (changes.stops) {
     forget_stops_.run();
     for (const std::string& name : changes.stops->arms)
@@ -199,7 +204,8 @@ void JobTables::write(const StoredObject& object) {
   seal_object_.bind_all(name).run();
 }
 
-void JobTables::write(std::uint64_t number, const JobChange& change) {
+void JobTables::write(std::uint64_t number, const JobChange& change,
+                      std::chrono::milliseconds now) {
   const std::int64_t key = as_stored(number);
   if (const auto& job = change.seen) {
     see_.bind_all(key, std::string_view(job->id), std::string_view(job->state),
@@ -217,13 +223,15 @@ void JobTables::write(std::uint64_t number, const JobChange& change) {
   if (change.may_have_moved) move_.bind_all(key).run();
   seal_.bind_all(key).run();
   const bool has_ended = change.seen && change.seen->has_ended;
+  if (has_ended) end_.bind_all(key, std::int64_t{now.count()}).run();
   if (has_ended) return drop_body_.bind_all(key).run();
   if (change.body) put_body_.bind_all(key, std::string_view(*change.body)).run();
   if (change.amended) amend_.bind_all(key, std::string_view(*change.amended)).run();
   if (change.body || change.amended) seal_body_.bind_all(key).run();
 }
 
-bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::time_point now) {
+bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::time_point began,
+                         std::chrono::milliseconds now) {
   using std::chrono::milliseconds;
   std::int64_t deleted = 0;
   Transaction transaction(database_);
@@ -243,11 +251,17 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   }
   if (retention.age_max) {
     const auto oldest =
-        std::chrono::floor<milliseconds>((now - *retention.age_max).time_since_epoch());
+        std::chrono::floor<milliseconds>((began + now - *retention.age_max).time_since_epoch());
     remove(
-        "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 ORDER BY ended_ms LIMIT ?2",
+        "SELECT number FROM job WHERE has_ended = 1 AND ended_ms < ?1 AND number NOT IN (SELECT "
+        "number FROM temp.ended_now) ORDER BY ended_ms LIMIT ?2",
         oldest.count());
+    remove(
+        "SELECT number FROM job JOIN temp.ended_now USING(number) WHERE ended_now.at_ms < ?1 LIMIT "
+        "?2",
+        (now - milliseconds(*retention.age_max)).count());
   }
+  database_.run("DELETE FROM temp.ended_now WHERE number NOT IN (SELECT number FROM job)");
   const auto keep_last = [&](const std::string& rows, std::size_t count) {
     Statement statement = database_.prepare(
         "DELETE FROM " + rows.substr(0, rows.find(' ')) + " WHERE number IN (SELECT number FROM " +

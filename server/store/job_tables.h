@@ -24,21 +24,26 @@ class JobTables {
   // Returns the number of commits over all sessions.
   [[nodiscard]] std::uint64_t commits() const { return commits_; }
   // Writes and syncs all changes, or none.
-  void write(const Pending& changes);
+  // `now`: time since the session began.
+  void write(const Pending& changes, std::chrono::milliseconds now);
   // Call if the log was cut off. Its contents are then not copied into the database file at the
   // end.
   void leave_log();
   // Deletes some of the oldest rows beyond the limits. Returns true if there may be more.
-  bool clean_up(const Retention& retention, std::chrono::system_clock::time_point now);
+  // `began`: wall time at which the session began; `now`: time since then. The ages of jobs that
+  // ended in this session count from their end by `now`; other jobs count by the wall time of
+  // their end.
+  bool clean_up(const Retention& retention, std::chrono::system_clock::time_point began,
+                std::chrono::milliseconds now);
 
  private:
-  void write(std::uint64_t number, const JobChange& change);
+  void write(std::uint64_t number, const JobChange& change, std::chrono::milliseconds now);
   void write(const StoredAlert& alert);
   void write(const StoredObject& object);
   Database database_;
-  Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
-      seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_, seal_note_,
-      keep_alert_, seal_alert_, answer_, seal_answer_, count_;
+  Statement see_, end_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_,
+      stop_, seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_,
+      seal_note_, keep_alert_, seal_alert_, answer_, seal_answer_, count_;
   std::uint64_t commits_;
 };
 

@@ -129,6 +129,8 @@ TEST_F(Refusals, MessageStatesTheRequiredClearance) {
   near.clearance_m = 0.003;
   EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are required");
   near.clearance_m = -0.001;
+  EXPECT_EQ(in_words(near), "hand overlaps table by 1 mm; 20 mm are required");
+  near.clearance_m = 0.0;
   EXPECT_EQ(in_words(near), "hand touches table; 20 mm are required");
   near.clearance_m = 0.0205;
   EXPECT_EQ(in_words(near, 0.0012),

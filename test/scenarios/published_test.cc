@@ -57,6 +57,9 @@ class Follower final : public Observer {
  private:
   void follow(const JobView& job) {
     told_.insert_or_assign(job.id, job);
+    if (job.times.scheduled_at && job.times.started_at) {
+      EXPECT_LE(*job.times.scheduled_at, *job.times.started_at) << job.key;
+    }
     held += job.state == JobState::paused ? 1 : 0;
     const auto read = board->job(job.key);
     ASSERT_TRUE(read) << job.key;

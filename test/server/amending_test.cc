@@ -43,6 +43,23 @@ TEST_F(Amending, ChangesOnlyTheGivenMembersAndPublishesThem) {
   EXPECT_EQ(patch("a", json::object()).status, 200) << "nothing is to be changed";
 }
 
+TEST_F(Amending, SaysIfAPriorityChangesNothingBecauseTheBlockerHasStarted) {
+  start(1.0);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("first", test::kHome, test::kMiddle).dump()).status, 202);
+  until(listener, "first", "running");
+  ASSERT_EQ(post("/api/v1/jobs", job("second", test::kHome, test::kMiddle, "right").dump()).status,
+            202);
+  until(listener, "second", "backlogged");
+  const auto changed = patch("second", {{"priority", 5}});
+  ASSERT_EQ(changed.status, 200) << changed.body;
+  EXPECT_TRUE(changed.json()["notice"].get<std::string>().starts_with(
+      "job second waits for job first, which has started: the priority changes nothing until"))
+      << changed.body;
+  EXPECT_FALSE(patch("second", {{"name", "b"}}).json().contains("notice"));
+  EXPECT_FALSE(get("/api/v1/jobs/second").json().contains("notice"));
+}
+
 TEST_F(Amending, RefusesImpossibleChanges) {
   start(20.0);
   submit("a");

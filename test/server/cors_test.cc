@@ -34,7 +34,7 @@ TEST_F(Cors, AllowedOriginMaySendAllRequests) {
   const auto stopped = ask("POST", "/api/v1/stop", kStation, "Content-Length: 0\r\n");
   EXPECT_EQ(stopped.status, 202);
   EXPECT_EQ(stopped.headers.at("access-control-allow-origin"), kStation);
-  EXPECT_EQ(stopped.headers.at("vary"), "Origin");
+  EXPECT_EQ(stopped.headers.at("vary"), "Accept, Accept-Encoding, Origin");
   const auto refused = ask("GET", "/api/v1/arms/nobody", kStation);
   EXPECT_EQ(refused.status, 404);
   EXPECT_EQ(refused.headers.at("access-control-allow-origin"), kStation) << "problems, too";

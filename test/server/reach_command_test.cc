@@ -50,6 +50,19 @@ TEST_F(ReachCommand, WritesTablesAndAPicture) {
   }
 }
 
+// On one core, so that it takes longer than the two seconds without progress.
+TEST_F(ReachCommand, ShowsProgressOnATerminalOnly) {
+  const std::string command =
+      std::string(ARMLOOM_BINARY) + " reach --step 0.22 --cell " + test::kCell;
+  const std::string typed = (folder_ / "typed").string();
+  ASSERT_EQ(std::system(("taskset -c 0 script -qec '" + command + "' /dev/null >" + typed).c_str()),
+            0);
+  const std::string shown = read_text_file(typed).value();
+  EXPECT_NE(shown.find("armloom: reach: "), std::string::npos) << shown;
+  EXPECT_NE(shown.find(" %, "), std::string::npos) << shown;
+  EXPECT_EQ(reach("").err, "");
+}
+
 TEST_F(ReachCommand, RefusesBadInputWithPlaceAndRemedy) {
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Outcome outcome = run("reach --cell " + test::kCell + " " + arguments);

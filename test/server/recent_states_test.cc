@@ -45,6 +45,25 @@ TEST(RecentStates, DoNotFillAGapAfterwards) {
   EXPECT_EQ(states.frames().size(), 2U) << "what was missed is not made up for";
 }
 
+TEST(RecentStates, AreGivenToWhoWaitsForLaterOnes) {
+  RecentStates states;
+  const Configuration q = Configuration::Zero(1);
+  states.take(at(0s), q, wall(0ms));
+  std::vector<std::size_t> told;
+  const auto tell = [&](const std::vector<RecentStates::FramePtr>& later) {
+    told.push_back(later.size());
+  };
+  states.when_later(at(-1s), wall(0ms), tell);
+  EXPECT_EQ(told, (std::vector<std::size_t>{1})) << "at once";
+  states.when_later(at(0s), wall(10s), tell);
+  states.when_later(at(9s), wall(200ms), tell);
+  EXPECT_EQ(told.size(), 1U);
+  states.take(at(1s), q, wall(100ms));
+  EXPECT_EQ(told, (std::vector<std::size_t>{1, 1})) << "the one that waits for less";
+  states.take(at(2s), q, wall(200ms));
+  EXPECT_EQ(told, (std::vector<std::size_t>{1, 1, 0})) << "waited long enough";
+}
+
 using Past = Durable;
 TEST_F(Past, HasTheMotionOfAnEndedJob) {
   start(5);
@@ -55,6 +74,12 @@ TEST_F(Past, HasTheMotionOfAnEndedJob) {
   EXPECT_EQ(states["stream"], test::Listener(port()).next_of("snapshot")["stream"]);
   const json cell = get("/api/v1/cell").json();
   ASSERT_EQ(states["joints"].size(), cell["joints"].size());
+  const std::string last = states["t_s"].back().dump();
+  const json later = get("/api/v1/states?wait_s=10&after_s=" + last).json();
+  ASSERT_FALSE(later["t_s"].empty());
+  EXPECT_GT(later["t_s"].front(), states["t_s"].back()) << "only what is new";
+  EXPECT_GT(get("/api/v1/states?stream=other&after_s=" + last).json()["t_s"].size(),
+            states["t_s"].size());
   EXPECT_EQ(states["joints"][0], cell["joints"][0]["name"]);
   ASSERT_EQ(states["t_s"].size(), states["q"].size());
   double farthest = 0, before = -1;

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 
@@ -181,6 +182,52 @@ TEST_F(Store, DeletesOldEndedJobs) {
   while (numbers() != last && std::chrono::steady_clock::now() < deadline) {
   }
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
+}
+
+// The age of jobs that end in a session is counted by a clock that only goes forward, whatever wall
+// time they have: here 1970, because the machine's clock was not set yet.
+TEST_F(Store, AgesJobsOfTheSessionByAForwardClock) {
+  using namespace std::chrono_literals;
+  const auto kept = [&] {
+    std::vector<std::uint64_t> numbers;
+    EXPECT_TRUE((*JobHistory::open(folder_))->oldest_first({}, [&](const StoredJob& found) {
+      numbers.push_back(found.number);
+    }));
+    return numbers;
+  };
+  const auto wait_until = [&](const std::vector<std::uint64_t>& numbers) {
+    const auto deadline = std::chrono::steady_clock::now() + 10s;
+    while (kept() != numbers && std::chrono::steady_clock::now() < deadline) {
+    }
+    EXPECT_EQ(kept(), numbers);
+  };
+  std::atomic<std::chrono::minutes> passed{0min};
+  StoreOptions month = options();
+  month.retention.age_max = 30 * 24h;
+  month.now = [&passed] { return std::chrono::steady_clock::time_point{} + 1h + passed.load(); };
+  {
+    const auto store = open();
+    accept(*store, 1).get();
+    store->see(job(1, "succeeded"));  // of an earlier session, in 1970: too old
+    accept(*store, 2).get();          // waits over the restart
+  }
+  const auto store = open(month);
+  wait_until({2});
+  accept(*store, 3).get();
+  accept(*store, 4).get();  // the last number is always kept
+  store->see(job(2, "succeeded"));
+  store->see(job(3, "succeeded"));
+  ASSERT_TRUE(store->flush());
+  const auto clean_up_after = [&](std::chrono::minutes time) {
+    passed = time;
+    accept(*store, 4).get();  // wakes the store's thread, which then cleans up
+    ASSERT_TRUE(store->flush());
+    accept(*store, 4).get();
+  };
+  clean_up_after(24h);
+  EXPECT_EQ(kept(), (std::vector<std::uint64_t>{2, 3, 4}));
+  clean_up_after(31 * 24h);
+  wait_until({4});
 }
 
 TEST_F(Store, ReusesNoNumberAfterDeletingAllEndedJobs) {

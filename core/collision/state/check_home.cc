@@ -68,12 +68,15 @@ Problems check_home(const PlanningScenePtr& scene) {
     const bool self = query.is_self(pair.pair);
     const bool mount = query.is_mount(pair.pair) && cell.clearances.mount_clearance_m;
     char figures[120];
-    std::snprintf(figures, sizeof figures, ": %.4f m apart at home, %s is %.4f",
-                  proximity.clearance_m,
-                  self    ? "self_clearance_m"
-                  : mount ? "mount_clearance_m"
-                          : "clearance_m",
-                  proximity.limit_m);
+    const double m = proximity.clearance_m;
+    std::snprintf(
+        figures, sizeof figures,
+        m < 0.0 ? ": overlap by %.4f m at home, %s is %.4f" : ": %.4f m apart at home, %s is %.4f",
+        std::abs(m),
+        self    ? "self_clearance_m"
+        : mount ? "mount_clearance_m"
+                : "clearance_m",
+        proximity.limit_m);
     const std::string allow = "add [\"" + proximity.body_a + "\", \"" + proximity.body_b +
                               "\"] to the cell's \"allowed_collisions\"";
     const auto claim = claim_of(*scene, pair.pair);

@@ -17,10 +17,11 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   set_joints(at, *head.job.trajectory, head.job.trajectory->start());
   const auto& joints = state.cell->arm(arm).joints;
   const Eigen::VectorXd to = joints_of(at, joints);
-  // How long it may take: the straight line at that speed is the planner's to make.
-  TrajectoryPtr way = line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to);
-  if (!way) return false;
   const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
+  // An estimate until the path is planned.
+  TrajectoryPtr way =
+      line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to, speed);
+  if (!way) return false;
   Record record = record_of(state, {.job = state.jobs.next_id(),
                                     .trajectory = std::move(way),
                                     .terms = {.priority = head.job.terms.priority,

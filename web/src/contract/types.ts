@@ -136,8 +136,12 @@ export interface components {
             ended_at: string | null;
             /** @description Share of the trajectory's time, 0 to 1 */
             progress: number;
-            /** @description Duration of the trajectory; an estimate until a goal is planned */
+            /** @description Duration of the trajectory, velocity scaling included */
             duration_s: number;
+            /** @description true if `duration_s` is an estimate, because the path to the goal is not planned yet: the straight line in joint space at this velocity scaling */
+            duration_is_estimate?: boolean;
+            /** @description For a goal: share of the maximum velocity */
+            velocity_scaling_factor?: number;
             /** @description For a goal: true if the path is planned */
             planned?: boolean;
             /** @description true if the server computed the times of the trajectory (`retime`) */
@@ -188,6 +192,8 @@ export interface components {
                 reason: components["schemas"]["Reason"];
                 detail: string;
             } | null;
+            /** @description Only in the answer to PATCH: why the change has no effect at present */
+            notice?: string;
         };
         /** @description The coordination diagram of two motions. The times of cells and of progress are trajectory time. */
         Diagram: {

@@ -1,0 +1,120 @@
+#include "server/command/remote.h"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "server/command/command.h"
+#include "server/http/http_client.h"
+#include "server/http/message.h"
+#include "server/messages/mesh_address.h"
+#include "server/messages/plain_text.h"
+
+namespace armloom {
+namespace {
+
+constexpr const char* kText = "text/plain";
+constexpr const char* kJson = "application/json";
+
+int complain_with(const std::string& text, int code) {
+  std::cerr << "armloom: " << text << '\n';
+  return code;
+}
+
+// Explains why a request failed, and returns the exit code.
+int explain(const ClientResponse& response, const RemoteOptions& options) {
+  if (response.status == 401) {
+    return complain_with(
+        options.token.empty()
+            ? "the server asks for a token: set ARMLOOM_TOKEN to a token printed by `armloom "
+              "token add`, or give it with --token"
+            : "the server does not accept the token in ARMLOOM_TOKEN (or --token): it is "
+              "unknown or was revoked",
+        kExitBadInput);
+  }
+  std::string text = response.body;
+  if (response.content_type.starts_with("application/problem+json")) {
+    text = problem_text(Schema::parse(text));
+  } else if (!response.content_type.starts_with(kText)) {
+    text = "the answer, status " + std::to_string(response.status) +
+           ", is not one of an armloom server: is ARMLOOM_URL (or --url) its address?";
+  }
+  while (text.ends_with('\n')) text.pop_back();
+  return complain_with(text, response.status < 500 ? kExitBadInput : kExitUnavailable);
+}
+
+int unreachable(const Problems& problems) {
+  return complain_with(
+      problems.front().detail +
+          "; start it with `armloom serve`, or set ARMLOOM_URL (or --url) to its address",
+      kExitUnavailable);
+}
+
+int bad_url(const Problems& problems) {
+  return complain_with("ARMLOOM_URL or --url: " + problems.front().detail, kExitBadInput);
+}
+
+// Sends the request and prints the answer. `target` is without the prefix of the API.
+int send(const RemoteOptions& options, const char* method, const std::string& target) {
+  const auto server = read_server_url(options.url);
+  if (!server) return bad_url(server.error());
+  const auto response =
+      fetch(*server, {method, kApiPrefix + target, options.token, options.json ? kJson : kText});
+  if (!response) return unreachable(response.error());
+  if (response->status >= 300) {
+    if (options.json) std::cout << response->body << std::flush;
+    return explain(*response, options);
+  }
+  std::cout << response->body << std::flush;
+  return std::cout ? kExitDone : kExitNotWritten;
+}
+
+}  // namespace
+
+int list_remote_jobs(const JobsOptions& options) {
+  std::string query = "?limit=" + std::to_string(options.limit);
+  if (!options.state.empty()) query += "&state=" + url_segment(options.state);
+  if (!options.arm.empty()) query += "&arm=" + url_segment(options.arm);
+  return send(options.server, "GET", "/jobs" + query);
+}
+
+int explain_job(const WhyOptions& options) {
+  return send(options.server, "GET", "/jobs/" + url_segment(options.job));
+}
+
+int stop_remote_arms(const StopOptions& options) {
+  if (options.arms.empty()) return send(options.server, "POST", "/stop");
+  int code = kExitDone;
+  for (const std::string& arm : options.arms) {
+    const int one = send(options.server, "POST", "/arms/" + url_segment(arm) + "/stop");
+    if (code == kExitDone) code = one;
+  }
+  return code;
+}
+
+int print_events(const EventsOptions& options) {
+  const auto server = read_server_url(options.server.url);
+  if (!server) return bad_url(server.error());
+  std::size_t printed = 0;
+  const auto print = [&](std::string_view line) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (!line.starts_with("data: ")) return true;
+    line.remove_prefix(6);
+    std::string text = std::string(line) + '\n';
+    if (!options.server.json) {
+      const auto message = Schema::parse(line, nullptr, false);
+      text = message.is_discarded() ? text : event_text(message);
+    }
+    std::cout << text << std::flush;
+    if (!text.empty()) ++printed;
+    return std::cout && (options.count == 0 || printed < options.count);
+  };
+  const auto response = follow(*server,
+                               {"GET", std::string(kApiPrefix) + "/events", options.server.token,
+                                "text/event-stream, text/plain;q=0.5"},
+                               print);
+  if (!response) return unreachable(response.error());
+  if (response->status >= 300) return explain(*response, options.server);
+  return std::cout ? kExitDone : kExitNotWritten;
+}
+
+}  // namespace armloom

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace armloom {
+
+// Commands for a running server. They print the server's answer as text, or with `json` as it is.
+
+struct RemoteOptions {
+  std::string url = "http://127.0.0.1:8080";
+  std::string token;
+  bool json = false;
+};
+
+struct JobsOptions {
+  RemoteOptions server;
+  std::string state;  // default: any
+  std::string arm;
+  std::size_t limit = 100;
+};
+int list_remote_jobs(const JobsOptions& options);
+
+struct WhyOptions {
+  RemoteOptions server;
+  std::string job;
+};
+int explain_job(const WhyOptions& options);
+
+struct StopOptions {
+  RemoteOptions server;
+  std::vector<std::string> arms;  // default: all
+};
+// Stops each of the arms, even if an earlier request fails.
+int stop_remote_arms(const StopOptions& options);
+
+struct EventsOptions {
+  RemoteOptions server;
+  std::size_t count = 0;  // ends after so many events; zero: never
+};
+// Prints events as they come, one per line, until the server ends.
+int print_events(const EventsOptions& options);
+
+}  // namespace armloom

@@ -1,0 +1,69 @@
+// Commands for a running server: jobs, why, stop, events.
+#include "test/server/serve_fixture.h"
+#include "test/server/wire.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+
+class RemoteCommand : public test::Serve {
+ protected:
+  [[nodiscard]] test::Outcome ask(std::uint16_t port, const std::string& arguments) const {
+    setenv("ARMLOOM_URL", ("http://127.0.0.1:" + std::to_string(port)).c_str(), 1);
+    return run(arguments);
+  }
+  void TearDown() override {
+    unsetenv("ARMLOOM_URL");
+    unsetenv("ARMLOOM_TOKEN");
+  }
+};
+
+TEST_F(RemoteCommand, ShowsJobsAndStopsArms) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  begin_job(port, "reach", "left");
+  EXPECT_NE(ask(port, "jobs").out.find("reach"), std::string::npos);
+  EXPECT_EQ(json::parse(ask(port, "jobs --json --arm right").out)["jobs"], json::array());
+  const auto one = ask(port, "stop left");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(test::request(port, "GET", "/api/v1/queue").json()["stopped"], false);
+  const auto why = ask(port, "why reach");
+  EXPECT_TRUE(why.out.starts_with("Job reach of arm left ")) << why.out;
+  EXPECT_EQ(json::parse(ask(port, "why reach --json").out)["id"], "reach");
+  const auto all = ask(port, "stop");
+  EXPECT_EQ(all.exit_code, 0);
+  EXPECT_EQ(test::request(port, "GET", "/api/v1/queue").json()["stopped"], true);
+  const auto events = ask(port, "events --count 1");
+  EXPECT_NE(events.out.find("snapshot  1 jobs, 2 arms"), std::string::npos) << events.out;
+  EXPECT_EQ(json::parse(ask(port, "events --count 1 --json").out)["type"], "snapshot");
+}
+
+TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const auto outcome = ask(server.port(), "stop lfet left right");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "armloom: no such arm \"lfet\"; did you mean left?\n");
+  EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+}
+
+TEST_F(RemoteCommand, ExplainsWhatIsWrong) {
+  const auto unreached = ask(1, "jobs");
+  EXPECT_EQ(unreached.exit_code, 69);
+  EXPECT_NE(unreached.err.find("http://127.0.0.1:1 "), std::string::npos) << unreached.err;
+  EXPECT_NE(unreached.err.find("ARMLOOM_URL"), std::string::npos) << unreached.err;
+  EXPECT_EQ(run("why a --url ftp://x").exit_code, 2);
+  const std::string tokens = (folder_ / "tokens").string();
+  const auto added = run("token add --tokens " + tokens + " --name a --role viewer");
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  const std::string token = added.out.substr(added.out.find("armloom_"), 72);
+  const test::ServeProcess server({"--cell", test::kCell, "--tokens", tokens}, log());
+  const auto asks = ask(server.port(), "why nothing");
+  EXPECT_EQ(asks.exit_code, 2);
+  EXPECT_NE(asks.err.find("ARMLOOM_TOKEN"), std::string::npos) << asks.err;
+  setenv("ARMLOOM_TOKEN", token.substr(0, token.find('\n')).c_str(), 1);
+  EXPECT_EQ(ask(server.port(), "why nothing").err, "armloom: no such job \"nothing\"\n");
+}
+
+}  // namespace
+}  // namespace armloom
