@@ -22,7 +22,7 @@ import { Player } from './recordings/player';
 import { Checklist } from './recovery/checklist';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
-import { Api, kApi } from './server/api';
+import { address_on_server, Api, kApi } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
@@ -45,7 +45,8 @@ import { shown_name } from './names';
 import { kText } from './strings';
 
 const store = new Store();
-const api = new Api(kApi, (url, init) => fetch(url, init));
+const kBase = address_on_server(kApi);
+const api = new Api(kBase, (url, init) => fetch(url, init));
 const motions = new MotionBook((id) => api.job_motion(id));
 const timers: Timers = {
   set: (callback, delay_ms) => window.setTimeout(callback, delay_ms),
@@ -55,7 +56,7 @@ const alerts = new AlertList(api, timers);
 const jogging = new JogControl(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
-  url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kApi}/ws`,
+  url: `${kBase.replace(/^http/, 'ws')}/ws`,
   open_socket: (url) => new WebSocket(url) as unknown as SocketLike,
   timers,
   on_message: (message) => {
@@ -107,12 +108,12 @@ async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;
   session.value = answer.value;
-  if (answer.value.role === null) location.assign(`/login${location.hash}`);
+  if (answer.value.role === null) location.assign(address_on_server('login') + location.hash);
 }
 
 /** Loads events from before the page was connected. */
 async function look_before(stream: string, seq: number): Promise<void> {
-  store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
+  store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
 }
 
 /**
