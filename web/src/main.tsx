@@ -26,7 +26,7 @@ import { address_on_server, Api, kApi } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
-import type { Session } from './server/messages';
+import type { Message, Session } from './server/messages';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Seen, seen_app } from './state/as_of';
@@ -59,21 +59,7 @@ const connection = new Connection({
   url: `${kBase.replace(/^http/, 'ws')}/ws`,
   open_socket: (url) => new WebSocket(url) as unknown as SocketLike,
   timers,
-  on_message: (message) => {
-    const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
-    const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
-    store.take(message);
-    if (is_new_run) void look_before(message.stream, message.seq);
-    if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
-    // A snapshot contains only the last ended jobs. The archive starts again to find the others.
-    if (message.type === 'snapshot') archive.reopen();
-    if (other_run) {
-      motions.clear();
-      archive.forget();
-      void load_cell();
-    }
-  },
+  on_message: (message) => store.receive(message, take),
   on_link: (link) => {
     store.set_link(link);
     if (link.status === 'lost') void know_who();
@@ -83,6 +69,24 @@ const connection = new Connection({
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
+
+/** Applies a message, and asks the server for what belongs to it. */
+function take(message: Message): void {
+  const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
+  const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
+  store.take(message);
+  if (is_new_run) void look_before(message.stream, message.seq);
+  if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
+  if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
+  // A snapshot contains only the last ended jobs. The archive starts again to find the others.
+  if (message.type === 'snapshot') archive.reopen();
+  if (other_run) {
+    motions.clear();
+    archive.forget();
+    void load_cell();
+  }
+}
+
 const router = new Router(address_bar_of(window), () => store.stream);
 const archive = new Archive(api, (id) => store.job(id) !== null);
 const checklist = new Checklist(store);
