@@ -39,6 +39,13 @@ enum class PassageAnswer {
   apart,  // free in all positions of both arms
 };
 
+// Evidence that a passage is blocked: the pair that comes too close. body_a belongs to the passing
+// motion, body_b to the arm at rest.
+struct PassageBlock {
+  Proximity proximity;
+  Duration time;  // in the passing motion
+};
+
 // Proven clearance (m): for each kind of pair, the smallest clearance that the check required.
 struct ClearanceBound {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -67,6 +74,8 @@ struct Verdict {
   // resting arm that is not free in all states, with its conflict regions.
   std::vector<PairRegions> regions = {};
   std::vector<PassageAnswer> passages = {};  // answers to Question::passages; empty if all are free
+  // One for each of `passages`, with the evidence if it is blocked; or empty.
+  std::vector<std::optional<PassageBlock>> passage_blocks = {};
   // The budget of evaluations ran out. A larger Question::effort may find more states free.
   bool exhausted = false;
   // The check was aborted: all other members are void.

@@ -70,6 +70,12 @@ struct DetourView {
   // Nullopt if no detour was taken, or if the shortest path was not possible.
   std::optional<double> time_saved_s;
 };
+// See Starvation in core/jobs/job.h.
+struct StarvationView {
+  TimePoint waits_since;
+  double bound_s = 0.0;  // scheduling.aging_s
+  std::uint64_t overtaken_by = 0;
+};
 // The choices that a client left to the server, and the decisions.
 struct JobWaysView {
   std::vector<std::string> alternatives;  // candidate arms, by name
@@ -105,6 +111,7 @@ struct JobView {
   JobMotionView motion = {};
   JobWaysView ways = {};
   std::vector<WaitView> waits_on;
+  std::optional<StarvationView> starvation;
   std::vector<std::string> cycle;       // keys of the deadlock cycle, this job first
   std::optional<JobResultView> result;  // when ended
   // Only in the answer to an amendment: why it changes nothing at present.

@@ -217,14 +217,15 @@ void Executive::Impl::watch() {
   std::vector<bool> moving;
   for (ArmId arm : all_arms(*cell_)) moving.push_back(motions.moving(arm));
   if (watch_.look(motions.measured(), moving, clock_.now)) {
-    count_.look(watch_.near());
+    count_.look(watch_.near().apart);
+    count_.look(watch_.near().at_mount);
     for (const MonitorFinding& finding : watch_.found()) {
       if (!finding.stops.empty()) count_.monitor_stop();
       publisher_.tell(event_of(finding, *cell_), clock_.now);
       if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
     }
   }
-  publisher_.tell_state(watch_.near(), clock_.now);
+  publisher_.tell_state(watch_.near().apart, clock_.now);
 }
 
 // ---- What is asked of all arms ----

@@ -23,7 +23,7 @@ class StateWatch {
   // changed since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
   // Results of the last check of a changed state.
-  [[nodiscard]] const std::vector<Proximity>& near() const { return near_; }
+  [[nodiscard]] const ClearanceQuery::Closest& near() const { return near_; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
 
  private:
@@ -32,7 +32,7 @@ class StateWatch {
   ClearanceQuery query_;
   Monitor monitor_;
   Configuration seen_;
-  std::vector<Proximity> near_;
+  ClearanceQuery::Closest near_;
   std::vector<MonitorFinding> found_;
 };
 

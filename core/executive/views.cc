@@ -82,12 +82,16 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
   std::optional<std::string> opening;
   if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(wait, in_vain, cell, names);
   if (wait.kind == Wait::Kind::object && wait.proximity) opening = opens(*wait.proximity, cell);
+  if (wait.kind == Wait::Kind::predecessor && wait.proximity) {
+    opening = "this job would end in the path of " + view.job + ", so that job goes first";
+  }
   if (opening) view.detail += (view.detail.empty() ? "" : "; ") + *opening;
   if (wait.proximity) {
     view.links = {wait.proximity->body_a, wait.proximity->body_b};
     view.own_time_s = to_seconds(wait.own_time);
     view.clearance_m = wait.proximity->clearance_m;
-    if (wait.kind == Wait::Kind::job) view.other_time_s = to_seconds(wait.other_time);
+    const bool of_job = wait.kind == Wait::Kind::job || wait.kind == Wait::Kind::predecessor;
+    if (of_job) view.other_time_s = to_seconds(wait.other_time);
   }
   return view;
 }
@@ -220,6 +224,10 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   const bool in_vain = job.reason() == Reason::backlog_timeout;
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
+  }
+  if (job.starvation) {
+    view.starvation = StarvationView{job.starvation->waits_since, to_seconds(cell.scheduling.aging),
+                                     job.starvation->overtaken_by};
   }
   view.cycle = ring_of(job, names);
   if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);

@@ -143,6 +143,12 @@ struct JobGoal {
   [[nodiscard]] GoalWay& way() { return ways[taken]; }
 };
 
+// Jobs submitted after this job were admitted although it had waited for scheduling.aging.
+struct Starvation {
+  TimePoint waits_since;     // the job could have gone first in its arms since then
+  std::size_t overtaken_by;  // number of these jobs
+};
+
 // Replanning of a job (replanning.h).
 struct AnotherWay {
   enum class Cause {
@@ -189,6 +195,7 @@ struct Job {
   // waits for the next one, and the last for the first. Not cleared if the job fails because of it.
   std::vector<JobId> ring = {};
   // Rare members are last because every step reads the members above.
+  std::optional<Starvation> starvation = {};  // until the job is admitted
   std::optional<Choice> choice = {};
   std::optional<AnotherWay> another_way = {};
   std::optional<JobGoal> goal = {};

@@ -60,13 +60,15 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 struct Wait {
   enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard };
   Kind kind;
-  std::optional<JobId> job;            // job, predecessor, capacity
-  std::optional<ArmId> arm;            // arm, stop; job: the other arm that comes too close
-  std::optional<Proximity> proximity;  // job, arm, object: the pair of links that comes too close
-  Duration own_time{};                 // with proximity: time in this job's trajectory
-  Duration other_time{};               // and in the other trajectory
-  std::string detail = {};             // stop: its cause
-  bool has_no_way_aside = false;       // arm: all retreats of that arm were tried
+  std::optional<JobId> job;  // job, predecessor, capacity
+  std::optional<ArmId> arm;  // arm, stop; job: the other arm that comes too close
+  // job, arm, object: the pair of links that comes too close; predecessor: the same, if this job
+  // would end in the path of that job
+  std::optional<Proximity> proximity;
+  Duration own_time{};            // with proximity: time in this job's trajectory
+  Duration other_time{};          // and in the other trajectory
+  std::string detail = {};        // stop: its cause; predecessor: why it goes first
+  bool has_no_way_aside = false;  // arm: all retreats of that arm were tried
 
   bool operator==(const Wait&) const = default;
   // Returns true if both waits name the same cause; times and distances may differ. Used to publish

@@ -83,7 +83,10 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
     const Passage& passage = asked[i];
     const PassageAnswer answer =
         verdict.passages.empty() ? PassageAnswer::free : verdict.passages[i];
-    sequence_.learn(passage, answer != PassageAnswer::blocked);
+    const bool has_evidence = i < verdict.passage_blocks.size() && verdict.passage_blocks[i];
+    sequence_.learn(
+        passage, answer != PassageAnswer::blocked,
+        has_evidence ? std::make_shared<const PassageBlock>(*verdict.passage_blocks[i]) : nullptr);
     const Record* leg = book.find(passage.leg);
     if (answer != PassageAnswer::apart || leg == nullptr) continue;
     if (passage.from != nullptr) {
@@ -94,10 +97,13 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
   }
 }
 
-void Lanes::learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms) {
+void Lanes::learn_in_the_way(JobId job, ArmId arm, const PassageBlock& block, const JobBook& book,
+                             const ArmRests& arms) {
   const auto& queue = book.queues()[ArmId{arm}];
   const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
-  if (rests && !is_stale_) sequence_.learn({job, arms.place(arm), book.at(job).leg.motion}, false);
+  if (!rests || is_stale_) return;
+  sequence_.learn({job, arms.place(arm), book.at(job).leg.motion}, false,
+                  std::make_shared<const PassageBlock>(block));
 }
 
 }  // namespace armloom

@@ -42,7 +42,8 @@ class Lanes {
   void learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book);
   // A check found that `arm` at its rest blocks the job's path. Ignored if the arm has a job that
   // is admitted or on its path.
-  void learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms);
+  void learn_in_the_way(JobId job, ArmId arm, const PassageBlock& block, const JobBook& book,
+                        const ArmRests& arms);
   void forget_passages() { sequence_.forget_passages(); }
 
  private:

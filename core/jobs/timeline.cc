@@ -28,7 +28,7 @@ class Timetable {
         dependencies_(state.graph.dependencies()) {
     std::vector<MotionAhead> ahead;
     for (std::size_t m = 0; m < motions_.size(); ++m) {
-      const bool is_stopped = stop_of(m).has_value();
+      const bool is_stopped = held_by(m).has_value();
       stands_.push_back(is_stopped ? Duration{} : stood_for(job(m), now));
       ahead.push_back({.progress = motions_[m].progress,
                        .duration = motions_[m].duration,
@@ -51,8 +51,16 @@ class Timetable {
  private:
   [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].job).job; }
 
-  [[nodiscard]] std::optional<Wait> stop_of(std::size_t m) const {
-    return state_.arms.stop_of(job(m));
+  // Returns what keeps the motion at rest for an unknown time: a stop, or what the last check of a
+  // motion that rests on its path has found.
+  [[nodiscard]] std::optional<Wait> held_by(std::size_t m) const {
+    if (auto stop = state_.arms.stop_of(job(m))) return stop;
+    const auto* held = job(m).in<Held>();
+    const bool brakes = job(m).in<Braking>() != nullptr && !is_given_up(job(m));
+    const std::vector<Wait>* found = held != nullptr ? &held->judgement.found
+                                     : brakes        ? &job(m).waits_on
+                                                     : nullptr;
+    return found != nullptr && !found->empty() ? std::optional(found->front()) : std::nullopt;
   }
 
   [[nodiscard]] bool is_stuck(std::size_t m) const {
@@ -85,7 +93,7 @@ class Timetable {
     const auto stages = prediction_.stages(m);
     if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
     const auto [at, from] = stages.back();
-    if (auto stop = stop_of(m)) return {now_ + from, std::nullopt, at, std::move(stop)};
+    if (auto held = held_by(m)) return {now_ + from, std::nullopt, at, std::move(held)};
     const auto rests = state_.graph.rests_ahead(motions_[m].job);
     const bool is_blocked = rests && *motions_[m].held_at <= at;
     return {now_ + from, std::nullopt, at,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -74,6 +75,30 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
   state.jobs.changed(record);
 }
 
+// Counts, for the first job of each arm, the admitted jobs that overtake it after it has waited for
+// `aging_s`.
+void note_overtaken(State& state, const std::vector<JobId>& admitted) {
+  std::set<JobId> firsts;  // a job of several arms is the first of several queues
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty()) firsts.insert(queue.front());
+  }
+  for (const JobId first : firsts) {
+    Record& record = state.jobs.at(first);
+    const bool waits_long = record.job.in<Queued>() != nullptr && record.ages_from &&
+                            state.now - *record.ages_from >= state.cell->scheduling.aging;
+    if (!waits_long) continue;
+    const auto overtaking = std::ranges::count_if(admitted, [&](JobId id) {
+      const Record& other = state.jobs.at(id);
+      return id != first && !other.job.system_job && record.turn < other.turn;
+    });
+    if (overtaking == 0) continue;
+    const std::size_t before = record.job.starvation ? record.job.starvation->overtaken_by : 0;
+    record.job.starvation =
+        Starvation{*record.ages_from, before + static_cast<std::size_t>(overtaking)};
+    state.jobs.changed(record);
+  }
+}
+
 void admit(State& state, const std::vector<JobId>& jobs, std::vector<CoordinatedMotion> candidates,
            const PassingOrders& orders) {
   state.lanes.admitted(jobs);
@@ -91,11 +116,13 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
     enter(state, record, Admitted{});
     record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
     record.job.waits_on.clear();
+    record.job.starvation.reset();
     note_free(state, record);
     record.asking.effort = 1;
     state.jobs.changed(record);
   }
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
+  note_overtaken(state, jobs);
 }
 
 }  // namespace
@@ -140,7 +167,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
       open_->is_only_option = !is_choice;
       return put_off;
     }
-    wait_in_turn(state, state.jobs.at(job), *outlook.first);
+    wait_in_turn(state, state.jobs.at(job), outlook);
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
@@ -275,7 +302,8 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   for (const Blocker& blocker : orders.blockers) {
     if (blocker.blocked != first.job.id) continue;
     if (blocker.arm) {
-      state.lanes.learn_in_the_way(first.job.id, *blocker.arm, state.jobs, state.arms);
+      state.lanes.learn_in_the_way(first.job.id, *blocker.arm,
+                                   {blocker.proximity, blocker.own_time}, state.jobs, state.arms);
     }
     waits.push_back(wait_for(blocker));
   }
@@ -294,7 +322,7 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<JobId>& jobs) 
   } else if (outlook.first && jobs.size() > 1) {
     put_off(state, first, first.job.judgement().found);  // not so
   } else if (outlook.first) {
-    wait_in_turn(state, first, *outlook.first);
+    wait_in_turn(state, first, outlook);
   } else {
     return true;
   }

@@ -22,8 +22,8 @@ std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const V
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) {
     if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
-      state.lanes.learn_in_the_way(record.job.id, *conflict.proximity.arm_b, state.jobs,
-                                   state.arms);
+      state.lanes.learn_in_the_way(record.job.id, *conflict.proximity.arm_b,
+                                   {conflict.proximity, conflict.own_time}, state.jobs, state.arms);
     }
     waits.push_back(wait_for(conflict));
     if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
@@ -99,9 +99,16 @@ void wait_behind(State& state, Record& record, JobId first) {
               {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
 }
 
-void wait_in_turn(State& state, Record& record, JobId first) {
-  stay_queued(state, record,
-              {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}, first});
+void wait_in_turn(State& state, Record& record, const SafeSequence::Outlook& outlook) {
+  Wait wait{.kind = Wait::Kind::predecessor, .job = outlook.first};
+  const auto& ends = record.leg.to;
+  if (outlook.block && std::ranges::find(ends, outlook.in_the_way) != ends.end()) {
+    wait.arm = outlook.block->proximity.arm_a;
+    wait.proximity = turned_around(outlook.block->proximity);
+    wait.own_time = record.job.trajectory->duration();
+    wait.other_time = outlook.block->time;
+  }
+  stay_queued(state, record, {state.version, {std::move(wait)}, outlook.first});
 }
 
 void refuse(State& state, Record& record, const Verdict& verdict) {

@@ -18,8 +18,8 @@ void put_off(State& state, Record& record, std::vector<Wait> waits);
 [[nodiscard]] bool put_off_where_it_stands(State& state, Record& record);
 // Keeps the job out of the backlog: it waits only for `first`, which must go before it.
 void wait_behind(State& state, Record& record, JobId first);
-// Does the same, but only while `first` precedes the job in the safe sequence.
-void wait_in_turn(State& state, Record& record, JobId first);
+// Does the same for `outlook.first`, but only while that job precedes the job in the safe sequence.
+void wait_in_turn(State& state, Record& record, const SafeSequence::Outlook& outlook);
 // If the verdict has a self-collision and the job has not begun, fails the job and returns true.
 [[nodiscard]] bool fails_by_itself(State& state, Record& record, const Verdict& verdict);
 // Defers the job because of the verdict's conflicts, or fails it (fails_by_itself()).

@@ -113,7 +113,7 @@ SafeSequence::Outlook SafeSequence::after(const std::vector<JobId>& group) {
       break;
     }
     bool mended = false;
-    if (auto answer = mend(then, legs, *ahead.blocked, mended)) return *answer;
+    if (auto answer = mend(then, legs, ahead, mended)) return *answer;
     if (mended) break;
   }
   if (!outlook.unknown.empty() || unplaced_.empty()) return outlook;
@@ -135,7 +135,8 @@ SafeSequence::Outlook SafeSequence::after(const std::vector<JobId>& group) {
 // A leg cannot come in its turn after the group: another order of the first legs, or the group
 // waits; unless it could not come without the group either.
 std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const Order& legs,
-                                                        Leg& blocked, bool& mended) {
+                                                        const Walk& walk_then, bool& mended) {
+  Leg& blocked = *walk_then.blocked;
   const Order front(legs.begin(),
                     legs.begin() + static_cast<std::ptrdiff_t>(std::min(legs.size(), kSearched)));
   if (std::ranges::find(front, &blocked) != front.end()) {
@@ -159,7 +160,11 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
   Walk now = walk(stands_, as_it_is);
   if (now.blocked == nullptr) {
     if (!now.unknown.empty()) return Outlook{.unknown = std::move(now.unknown)};
-    return Outlook{.first = blocked.job};
+    return Outlook{.unknown = {},
+                   .ahead = {},
+                   .first = blocked.job,
+                   .in_the_way = walk_then.in_the_way,
+                   .block = walk_then.block};
   }
   Order first;
   for (auto leg = sequence_.begin(); leg != sequence_.end() && first.size() < kSearched; ++leg) {

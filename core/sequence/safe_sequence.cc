@@ -50,8 +50,8 @@ void SafeSequence::assume(Leg& leg, const State& past) {
   if (!leg.is_estimate && leg.approaches.empty()) return;
   for (const PlacePtr& place : past) {
     if (std::ranges::find(leg.arms, place->arm) != leg.arms.end()) continue;
-    if (leg.is_estimate) leg.free[place->id] = true;
-    for (Approach& approach : leg.approaches) approach.free[place->id] = true;
+    if (leg.is_estimate) leg.free[place->id] = {.free = true};
+    for (Approach& approach : leg.approaches) approach.free[place->id] = {.free = true};
   }
 }
 
@@ -184,7 +184,8 @@ bool SafeSequence::goes_before(JobId first, JobId other) const {
 
 // ---- What is known ----
 
-void SafeSequence::learn(const Passage& passage, bool free) {
+void SafeSequence::learn(const Passage& passage, bool free,
+                         std::shared_ptr<const PassageBlock> block) {
   const auto known = index_.find(passage.leg);
   if (known == index_.end() || known->second->motion != passage.motion) return;
   Leg& leg = *known->second;
@@ -192,9 +193,9 @@ void SafeSequence::learn(const Passage& passage, bool free) {
   for (Approach& approach : leg.approaches)
     if (approach.from == passage.from) of = &approach.free;
   if (of == nullptr) return;
-  bool& is_free = of->try_emplace(passage.place->id, !free).first->second;
-  if (is_free == free) return;
-  is_free = free;
+  Known& is = of->try_emplace(passage.place->id, Known{.free = !free}).first->second;
+  if (is.free == free) return;
+  is = {.free = free, .block = std::move(block)};
   leg.seen.clear();
   tried_ = false;
 }
@@ -209,12 +210,19 @@ void SafeSequence::forget_passages() {
 }
 
 SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
-                                          std::vector<Passage>* unknown) {
+                                          std::vector<Passage>* unknown, Walk* walk) {
   if (std::ranges::equal(leg.seen, state, {}, {}, &Place::id)) return Passes::free;
   bool known = true;
   const auto is_blocked = [&](const Free& free, const PlacePtr& place, const PlacePtr& from) {
     const auto found = free.find(place->id);
-    if (found != free.end()) return !found->second;
+    if (found != free.end()) {
+      if (found->second.free) return false;
+      if (walk != nullptr) {
+        walk->in_the_way = place;
+        walk->block = found->second.block;
+      }
+      return true;
+    }
     known = false;
     if (unknown != nullptr) unknown->push_back({leg.job, place, leg.motion, from});
     return false;
@@ -237,7 +245,7 @@ SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
 SafeSequence::Walk SafeSequence::walk(State state, std::span<Leg* const> order) {
   Walk walk;
   for (Leg* leg : order) {
-    if (passes(*leg, state, &walk.unknown) == Passes::blocked) {
+    if (passes(*leg, state, &walk.unknown, &walk) == Passes::blocked) {
       walk.blocked = leg;
       break;
     }

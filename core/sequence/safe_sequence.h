@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -12,6 +13,8 @@
 #include "core/sequence/places.h"
 
 namespace armloom {
+
+struct PassageBlock;  // evidence that a passage is blocked; only stored here
 
 // A leg of the sequence: the motion of a waiting job, from rest to rest.
 struct WaitingLeg {
@@ -78,8 +81,10 @@ class SafeSequence {
   // possible, the previous order of the legs.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
 
-  // Store that a passage is free or blocked, or that two arms cannot meet at any position.
-  void learn(const Passage& passage, bool free);
+  // Store that a passage is free or blocked, with the evidence if known; or that two arms cannot
+  // meet at any position.
+  void learn(const Passage& passage, bool free,
+             std::shared_ptr<const PassageBlock> block = nullptr);
   void learn_apart(ArmId a, ArmId b) {
     apart_[a.index()][b.index()] = apart_[b.index()][a.index()] = true;
   }
@@ -98,8 +103,11 @@ class SafeSequence {
     std::vector<Passage> unknown;  // must be learned before an answer; then call after() again
     // Not needed for this answer; learned early, they show dead ends early.
     std::vector<Passage> ahead;
-    std::optional<JobId> first;  // if set: this leg must be done before the group
-    bool all = true;             // false if some legs would be in no sequence
+    std::optional<JobId> first;  // if set: this leg must be done before the group, ...
+    // ... because an arm would rest in its path: the place, and the evidence if known
+    PlacePtr in_the_way = nullptr;
+    std::shared_ptr<const PassageBlock> block = nullptr;
+    bool all = true;  // false if some legs would be in no sequence
   };
   // Returns what remains of the sequence if these legs are admitted now. A sequence exists if
   // `unknown` and `first` are empty. Precondition: each leg is the first in its arm queues, except
@@ -107,7 +115,11 @@ class SafeSequence {
   [[nodiscard]] Outlook after(const std::vector<JobId>& group);
 
  private:
-  using Free = std::unordered_map<std::uint64_t, bool>;  // by Place::id
+  struct Known {
+    bool free;
+    std::shared_ptr<const PassageBlock> block = nullptr;  // evidence, if blocked
+  };
+  using Free = std::unordered_map<std::uint64_t, Known>;  // by Place::id
   struct Approach {
     PlacePtr from;
     Free free = {};
@@ -127,6 +139,8 @@ class SafeSequence {
   struct Walk {
     std::vector<Passage> unknown;
     Leg* blocked = nullptr;
+    PlacePtr in_the_way = nullptr;  // of `blocked`, with the evidence if known
+    std::shared_ptr<const PassageBlock> block = nullptr;
   };
   struct Concerned {
     Order legs;
@@ -138,12 +152,13 @@ class SafeSequence {
   void add(WaitingLeg leg);
   static void assume(Leg& leg, const State& past);
   [[nodiscard]] bool follows(const Leg& leg) const;
-  Passes passes(Leg& leg, const State& state, std::vector<Passage>* unknown);
+  Passes passes(Leg& leg, const State& state, std::vector<Passage>* unknown, Walk* walk = nullptr);
   Walk walk(State state, std::span<Leg* const> order);
   [[nodiscard]] Concerned concerned(const std::vector<JobId>& group, const State& then);
   [[nodiscard]] Order all_that_may_go(const std::vector<JobId>& but);
   std::optional<Order> search(const State& state, Order legs);
-  std::optional<Outlook> mend(const State& then, const Order& legs, Leg& blocked, bool& mended);
+  std::optional<Outlook> mend(const State& then, const Order& legs, const Walk& walk_then,
+                              bool& mended);
   void place_more(std::vector<Passage>& unknown);
   void place_behind(std::vector<Passage>& unknown);
   void put_in_order(const Order& order);

@@ -42,6 +42,17 @@ FormatPtr<ChoiceView> choice_format() {
       output_only("detail", &ChoiceView::detail, text()),
   });
 }
+FormatPtr<StarvationView> starvation_format() {
+  using View = StarvationView;
+  return object<View>({
+      output_only("waits_since_s", &View::waits_since, cell_time(),
+                  "Cell time since which the job is the first of its arms and was not admitted"),
+      output_only("bound_s", &View::bound_s, number({0.0}),
+                  "`aging_s` of the cell: the job is flagged if it is overtaken after this time"),
+      output_only("overtaken_by", &View::overtaken_by, count(),
+                  "Number of jobs, submitted later, that were admitted since then"),
+  });
+}
 FormatPtr<AnotherWayView> another_way_format() {
   using View = AnotherWayView;
   using Cause = AnotherWay::Cause;
@@ -179,13 +190,16 @@ FormatPtr<WaitView> wait_format() {
           output_only(
               "links", &WaitView::links, list(text(), {.most = 2}),
               "Link of this job's arm, then the other link or object; empty without evidence"),
-          output_only("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
-                      "Time of the conflict from the start of this trajectory"),
+          output_only(
+              "own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
+              "Time of the conflict from the start of this trajectory. For kind predecessor "
+              "the end of the trajectory, if this job would end in the path of that job"),
           output_only("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
                       "Time of the conflict from the start of the other trajectory"),
           output_only("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
                       "Distance found; zero or negative in contact"),
-          output_if("detail", detail_of, text(), "Details, for example the cause of a stop"),
+          output_if("detail", detail_of, text(),
+                    "Details, for example the cause of a stop, or why a predecessor goes first"),
           output_if("progress", &WaitView::progress, number(kShare),
                     "While the job is being checked: share of the limit of evaluations used so "
                     "far. Most checks end before the limit"),
@@ -208,6 +222,9 @@ FormatPtr<JobView> job_format() {
                 output_only("waits_on", &View::waits_on, list(wait_format()),
                             "Reasons to wait; empty if the job does not wait"),
                 inlined(&View::ways, ways_part()),
+                output_if("starvation", &View::starvation, starvation_format(),
+                          "Present if the job starves: it has waited longer than `aging_s` while "
+                          "jobs that were submitted later went first"),
                 output_only("cycle", &View::cycle, list(text()),
                             "Ids of the jobs in the deadlock cycle that contains this job, this "
                             "job first. Each job waits for the next, and the last for the first. "

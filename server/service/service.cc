@@ -252,7 +252,8 @@ class Service::Impl {
 
   Response answer_file(const Request& request) {
     if (request.target.path == "/" && !guard_.caller(request.token)) {
-      return Response{303, "", "", {{"Location", "/login"}, {"Cache-Control", "no-store"}}};
+      // Relative, because a reverse proxy may serve the page below a path.
+      return Response{303, "", "", {{"Location", "login"}, {"Cache-Control", "no-store"}}};
     }
     if (!request.target.path.starts_with("/api/")) return files_.answer(request);
     return refusal_response({404, "not-found", "nothing is served at " + request.target.path,

@@ -77,5 +77,15 @@ test('Eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 
   await page.locator('[data-test=page-arm] .uplot').waitFor();
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('hall-light'));
+
+  // An arm whose next job has to let others pass first says for which job, and since when it rests.
+  await ask(page, 'PUT', '/sim/speed', { speed: 3 });
+  await go_to(page, '#/');
+  const waits = page.locator('[data-test=arm-waits]', { hasText: /behind arm\d-\d+ \(\d+ jobs?\), at rest \d+ / }).first();
+  await waits.waitFor();
+  const first = /arm\d-\d+/.exec(await waits.innerText())[0];
+  assert.match(await waits.locator('[data-test=arm-waits-for]').getAttribute('href'), new RegExp(`#/job/${first.slice(0, 5)}`));
+  await page.locator('.card [data-test=starves]').first().waitFor();
+  await page.screenshot(path_for('hall-waits'));
   assert.deepEqual(chromium.errors, []);
 });

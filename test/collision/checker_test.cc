@@ -169,7 +169,7 @@ TEST(ClearanceQuery, ClosestApartIsTheSmallestOverAllPairs) {
                     std::min(smallest.upper, distance.upper)};
       }
     }
-    auto closest = checker.closest_apart(q, 0.3);
+    auto closest = checker.closest_apart(q, 0.3).apart;
     std::erase_if(closest, [](const Proximity& pair) { return !pair.arm_b; });
     if (smallest.lower > 0.3 + kRounding_m) {
       EXPECT_TRUE(closest.empty());

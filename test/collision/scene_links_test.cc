@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -132,18 +133,43 @@ TEST(SceneLinks, AppearInDistancesAndInTheAudit) {
     const CellPtr cell = walled(as);
     small::ScaledQuery checker(scene_of(cell));
     const Configuration q = tip_from_wall(*cell, 0.0094);
-    const auto closest = checker.closest_apart(q, 2.0);
-    ASSERT_EQ(closest.size(), 3U);  // a with b, a and b with the scene
-    EXPECT_EQ(closest[1].arm_a, kA);
-    EXPECT_FALSE(closest[1].arm_b);
-    EXPECT_EQ(closest[1].body_b, "wall");
-    EXPECT_NEAR(closest[1].clearance_m, 0.0094, 1e-6);
+    const auto [apart, at_mount] = checker.closest_apart(q, 2.0);
+    std::vector<Proximity> closest = apart;
+    closest.insert(closest.end(), at_mount.begin(), at_mount.end());
+    const auto at_wall = std::ranges::find_if(
+        closest, [](const Proximity& pair) { return pair.arm_a == kA && pair.body_b == "wall"; });
+    ASSERT_NE(at_wall, closest.end());
+    EXPECT_FALSE(at_wall->arm_b);
+    EXPECT_NEAR(at_wall->clearance_m, 0.0094, 1e-6);
     const auto report = audit(*cell, {{TimePoint{}, q}}, 1ms);
     ASSERT_TRUE(report && report->smallest_clearance);
     EXPECT_EQ(report->smallest_clearance->body_b == "wall" ? report->smallest_clearance->body_b
                                                            : report->smallest_clearance->body_a,
               "wall");
     EXPECT_NEAR(report->smallest_clearance->distance_m, 0.0094, 1e-6);
+  }
+}
+
+// The first link is always near what the arm stands on. So that pair says nothing, unless it is too
+// close.
+TEST(SceneLinks, FirstLinkAndMountAreNotAmongTheClosestPairs) {
+  for (const As as : {As::link, As::object, As::mount}) {
+    const CellPtr cell = walled(as);
+    small::ScaledQuery checker(scene_of(cell));
+    for (const double gap_m : {0.0004, 0.059, 0.061, 0.2}) {
+      const auto [apart, at_mount] = checker.closest_apart(tip_from_wall(*cell, gap_m), 2.0);
+      const auto is_at_wall = [](const Proximity& pair) {
+        return pair.arm_a == kA && pair.body_b == "wall" && pair.body_a != "a_link1";
+      };
+      const bool is_left_out = as == As::mount && gap_m > 0.06;
+      EXPECT_EQ(std::ranges::any_of(apart, is_at_wall), !is_left_out) << gap_m;
+      for (const Proximity& pair : apart) EXPECT_NE(pair.body_a, "a_link1") << gap_m;
+      const bool first_link = std::ranges::any_of(
+          at_mount, [](const Proximity& pair) { return pair.body_a == "a_link1"; });
+      if (as == As::object) {
+        EXPECT_TRUE(first_link) << gap_m;
+      }
+    }
   }
 }
 

@@ -231,6 +231,11 @@ Verdict Crossings::answer(const Question& question) const {
   Verdict verdict{Verdict::Kind::free, question.version, {}, {}, 1};
   for (const PassageQuestion& passage : question.passages) {
     verdict.passages.push_back(answer(passage));
+    std::optional<PassageBlock>& block = verdict.passage_blocks.emplace_back();
+    if (verdict.passages.back() != PassageAnswer::blocked) continue;
+    block =
+        PassageBlock{proximity_of(passage.motion.trajectory->arms().front(), passage.arm),
+                     boxes(passage.motion, Standing{passage.arm, passage.rest[0]}).front().from_a};
   }
   for (const Motion& own : question.candidates) {
     const auto near = proximity_of(own.trajectory->arms().front(), ArmId{0});

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
+#include "test/scheduler/ideal_arms.h"
 
 namespace armloom {
 namespace {
@@ -206,6 +207,41 @@ TEST(Priority, IsInheritedThroughArmQueuesAndPredecessors) {
   EXPECT_EQ(after.question->candidates.front().job, before);
   after.answer_free(at(2ms));
   EXPECT_EQ(after.question->candidates.front().job, fair);
+}
+
+// Arm b would end in the path of every job of arm a, so it has to wait for the last of them.
+TEST(Starvation, IsFlaggedOnceLaterJobsGoFirstAfterTheBoundAndSaysWhy) {
+  const CellPtr cell = one_joint_arms(2);
+  ASSERT_EQ(cell->scheduling.aging, kAging);
+  IdealArms arms(cell, std::move(*make_policy("coordinated", *cell)),
+                 Crossings({{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6}}),
+                 [](JobId) { return Habits{}; });
+  const auto submit = [&](std::uint32_t arm, double from, double to) {
+    return arms.submit({JobId{0}, move({arm}, from, to, 10s), 0, 600s});
+  };
+  submit(0, 0, 1);
+  const JobId parks = submit(1, 0, 0.5);
+  JobId last{0};
+  for (int i = 0; i < 16; ++i) last = i % 2 == 0 ? submit(0, 1, 0) : submit(0, 0, 1);
+  arms.run_until(at(25s));
+  ASSERT_EQ(arms.job(parks).waits_on.size(), 1U);
+  const Wait& wait = arms.job(parks).waits_on.front();
+  EXPECT_EQ(wait.kind, Wait::Kind::predecessor);
+  EXPECT_EQ(wait.arm, ArmId{0});
+  ASSERT_TRUE(wait.proximity);
+  EXPECT_EQ(wait.proximity->arm_a, ArmId{1}) << "its own link comes first";
+  EXPECT_EQ(wait.own_time, 10s) << "at its end";
+  EXPECT_FALSE(arms.job(parks).starvation);
+  arms.run_until(at(75s));
+  ASSERT_TRUE(arms.job(parks).starvation);
+  EXPECT_LE(arms.job(parks).starvation->waits_since, at(1s));
+  const std::size_t so_far = arms.job(parks).starvation->overtaken_by;
+  EXPECT_GE(so_far, 1U);
+  EXPECT_LE(so_far, 16U);
+  arms.run();
+  EXPECT_EQ(arms.state(last), JobState::succeeded);
+  EXPECT_EQ(arms.state(parks), JobState::succeeded);
+  EXPECT_FALSE(arms.job(parks).starvation);
 }
 
 }  // namespace

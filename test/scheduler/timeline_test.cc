@@ -140,6 +140,26 @@ TEST_F(Timeline, StoppedMotionAndItsDependentsHaveNoPredictedEnd) {
   EXPECT_TRUE(this->leg(first).ends && this->leg(next).ends && this->leg(other).ends);
 }
 
+TEST_F(Timeline, MotionThatAnObjectBlocksOnItsPathHasNoPredictedEnd) {
+  start("coordinated", 1);
+  const JobId job = submit(0, 0, 1);
+  arms->run_until(at(4s));
+  ASSERT_TRUE(leg(job).ends);
+  arms->crossings.put({{ArmId{0}, 0.8, 0.9}});
+  arms->input(SceneChanged{{ArmId{0}}});
+  arms->run_until(at(8s));
+  const PredictedLeg blocked = leg(job);
+  EXPECT_EQ(blocked.ends, std::nullopt);
+  ASSERT_FALSE(blocked.pauses.empty());
+  EXPECT_EQ(blocked.pauses.back().to, std::nullopt);
+  ASSERT_TRUE(blocked.pauses.back().waits_on);
+  EXPECT_EQ(blocked.pauses.back().waits_on->kind, Wait::Kind::object);
+  arms->crossings.put({});
+  arms->input(SceneChanged{{ArmId{0}}});
+  arms->run_until(at(8100ms));
+  EXPECT_TRUE(leg(job).ends);
+}
+
 TEST_F(Timeline, PermanentlyBlockedMotionHasNoPredictedEnd) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1);

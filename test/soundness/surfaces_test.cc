@@ -181,8 +181,10 @@ void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
     if (!checker.is_self(pair.pair)) least_m = std::min(least_m, pair.clearance_m);
   }
   double closest_m = kHorizon_m;
-  for (const Proximity& pair : checker.closest_apart(q, kHorizon_m))
-    closest_m = std::min(closest_m, pair.clearance_m);
+  const auto [apart, at_mount] = checker.closest_apart(q, kHorizon_m);
+  for (const auto* pairs : {&apart, &at_mount}) {
+    for (const Proximity& pair : *pairs) closest_m = std::min(closest_m, pair.clearance_m);
+  }
   EXPECT_NEAR(std::max(closest_m, 0.0), std::max(least_m, 0.0), 1e-9);
 }
 

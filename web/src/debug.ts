@@ -5,6 +5,7 @@
 //   armloom.objects()                     the objects of the scene
 //   armloom.numbers()                     the last event number; counts of missed and doubled events
 //   armloom.lanes()                       the timeline of each arm
+//   armloom.halts()                       the periods in which each arm was stopped
 //   armloom.is_drawn()                    true if every robot of the cell is in the view
 //   armloom.drawn()                       a promise that resolves when all changes are drawn
 //   armloom.where_is(object)              the object's center, px from the view's top left
@@ -27,6 +28,7 @@ export interface DebugHook {
   objects(): unknown[];
   numbers(): { last: number; missed: number; doubled: number };
   lanes(): unknown[];
+  halts(): Record<string, unknown>;
   is_drawn(): boolean;
   drawn(): Promise<void>;
   where_is(object: string): { x: number; y: number } | null;
@@ -57,6 +59,7 @@ export function install_debug_hook(app: App, break_connection: () => void): void
     objects: () => [...store.objects],
     numbers: () => ({ ...store.numbers }),
     lanes: () => known_lanes(app, 0),
+    halts: () => Object.fromEntries(store.halts),
     is_drawn: () => view?.is_drawn() ?? false,
     drawn: () => view?.drawn() ?? Promise.reject(new Error('the view is not loaded yet')),
     where_is: (object) => view?.where_is(object) ?? null,

@@ -22,11 +22,11 @@ import { Player } from './recordings/player';
 import { Checklist } from './recovery/checklist';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
-import { Api, kApi } from './server/api';
+import { address_on_server, Api, kApi } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
-import type { Session } from './server/messages';
+import type { Message, Session } from './server/messages';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Seen, seen_app } from './state/as_of';
@@ -45,7 +45,8 @@ import { shown_name } from './names';
 import { kText } from './strings';
 
 const store = new Store();
-const api = new Api(kApi, (url, init) => fetch(url, init));
+const kBase = address_on_server(kApi);
+const api = new Api(kBase, (url, init) => fetch(url, init));
 const motions = new MotionBook((id) => api.job_motion(id));
 const timers: Timers = {
   set: (callback, delay_ms) => window.setTimeout(callback, delay_ms),
@@ -55,24 +56,10 @@ const alerts = new AlertList(api, timers);
 const jogging = new JogControl(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
-  url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kApi}/ws`,
+  url: `${kBase.replace(/^http/, 'ws')}/ws`,
   open_socket: (url) => new WebSocket(url) as unknown as SocketLike,
   timers,
-  on_message: (message) => {
-    const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
-    const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
-    store.take(message);
-    if (is_new_run) void look_before(message.stream, message.seq);
-    if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
-    // A snapshot contains only the last ended jobs. The archive starts again to find the others.
-    if (message.type === 'snapshot') archive.reopen();
-    if (other_run) {
-      motions.clear();
-      archive.forget();
-      void load_cell();
-    }
-  },
+  on_message: (message) => store.receive(message, take),
   on_link: (link) => {
     store.set_link(link);
     if (link.status === 'lost') void know_who();
@@ -82,6 +69,24 @@ const connection = new Connection({
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
   },
 });
+
+/** Applies a message, and asks the server for what belongs to it. */
+function take(message: Message): void {
+  const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
+  const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
+  store.take(message);
+  if (is_new_run) void look_before(message.stream, message.seq);
+  if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
+  if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
+  // A snapshot contains only the last ended jobs. The archive starts again to find the others.
+  if (message.type === 'snapshot') archive.reopen();
+  if (other_run) {
+    motions.clear();
+    archive.forget();
+    void load_cell();
+  }
+}
+
 const router = new Router(address_bar_of(window), () => store.stream);
 const archive = new Archive(api, (id) => store.job(id) !== null);
 const checklist = new Checklist(store);
@@ -107,12 +112,12 @@ async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;
   session.value = answer.value;
-  if (answer.value.role === null) location.assign(`/login${location.hash}`);
+  if (answer.value.role === null) location.assign(address_on_server('login') + location.hash);
 }
 
 /** Loads events from before the page was connected. */
 async function look_before(stream: string, seq: number): Promise<void> {
-  store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
+  store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
 }
 
 /**

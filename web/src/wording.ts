@@ -68,7 +68,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'arm': return words.for_arm(who, how, w.detail ?? '');
     case 'object': return words.for_object(who, how);
     case 'predecessor':
-      if (w.id) return words.turn_after(short_id(w.id), w.arm ? words.of_arm(w.arm) : '');
+      if (w.id) return turn_in_words(w, short_id(w.id));
       return w.arm ? words.turn_on(w.arm) : words.turn;
     case 'capacity': return w.id ? words.one_at_a_time(who) : words.free_slot;
     case 'plan': return words.for_path;
@@ -76,6 +76,38 @@ export function wait_in_words(w: WaitsOn): string {
     case 'stop': return words.for_resume(w.arm ?? words.the_cell, w.detail ?? '');
     case 'guard': return words.guard(String(w.detail));
   }
+}
+
+/** Returns which job goes first, and why if the server says so. */
+function turn_in_words(w: WaitsOn, id: string): string {
+  const words = kText.wait;
+  const turn = words.turn_after(id, w.arm ? words.of_arm(shown_name(w.arm)) : '');
+  const links = pair_of(w.links);
+  if (!links) return w.detail ? `${turn} (${shown_text(w.detail)})` : turn;
+  const [own, other] = [shown_name(links[0]), shown_name(links[1])];
+  const touches = w.clearance_m === null || w.clearance_m <= 0;
+  return `${turn}: ${touches ? words.would_touch(own, other) : words.would_block(own, other, millimeters(w.clearance_m ?? 0))}`;
+}
+
+/**
+ * Returns until when a job is blocked, if it is blocked by something that no running job ends: "until
+ * crate is moved". Empty otherwise.
+ */
+export function until_in_words({ waits_on: [first] }: Pick<Job, 'waits_on'>): string {
+  const words = kText.wait;
+  switch (first?.kind) {
+    case 'object': return words.until_moved(subject(first));
+    case 'arm': return words.until_clear(subject(first));
+    case 'stop': return words.until_resumed;
+    default: return '';
+  }
+}
+
+/** Returns a warning with its explanation if the job starves, else null. */
+export function starvation_in_words({ starvation }: Pick<Job, 'starvation'>): Figure | null {
+  if (!starvation) return null;
+  const { overtaken_by, bound_s } = starvation;
+  return { text: kText.wait.starves(overtaken_by), title: kText.wait.starves_title(overtaken_by, number_in_words(bound_s) + ' s') };
 }
 
 /** Returns what a checked job would conflict with. */
@@ -150,7 +182,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'plan': return words.short_plan;
     case 'check': return words.short_check;
     case 'capacity': return words.free_slot;
-    case 'predecessor': return words.turn;
+    case 'predecessor': return first.id === null ? words.turn : words.behind(short_id(first.id));
     case 'guard': return words.short_guard;
   }
 }

@@ -23,10 +23,13 @@ describe('Earlier events', () => {
     expect(await seqs([alert(1), alert(2), alert(3), alert(4)], 3)).toEqual([1, 2, 3]);
   });
 
-  it('are the last thousand', async () => {
+  it('are as many as the server keeps', async () => {
     const asked: string[] = [];
-    await earlier_events('/api', sending([alert(5000)], asked), kStream, 5000);
-    expect(asked).toEqual([`/api/events?stream=${kStream}&since=4000`]);
+    await earlier_events('/api', sending([snapshot(9000, { gap: true })], asked), kStream, 9000);
+    expect(asked).toEqual([4000, 8000].map((since) => `/api/events?stream=${kStream}&since=${since}`));
+    asked.length = 0;
+    await earlier_events('/api', sending([alert(300)], asked), kStream, 300);
+    expect(asked).toEqual([`/api/events?stream=${kStream}&since=0`]);
   });
 
   it('are none if the server has forgotten them or there were none', async () => {

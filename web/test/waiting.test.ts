@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { step_of, when_in_words } from '../src/jobs/when';
+import { blocker_of } from '../src/jobs/blocker';
+import { step_of, turn_in_words, when_in_words } from '../src/jobs/when';
 import { partner_of } from '../src/diagram/partner';
 import { pause_in_words } from '../src/jobs/states';
 import { selection_of } from '../src/route/selection';
@@ -8,7 +9,7 @@ import { kStateColors } from '../src/state/palette';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
 import { now_in_words } from '../src/timeline/paint';
-import { arm_in_words, as_last_heard, figure_in_words } from '../src/wording';
+import { arm_in_words, as_last_heard, figure_in_words, reason_in_words, starvation_in_words } from '../src/wording';
 import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
 
 const crate = wait_json({ kind: 'object', id: 'crate', arm: null, links: ['left_panda_hand', 'crate'] });
@@ -78,5 +79,52 @@ describe('Reason of a pause', () => {
     expect(stand && pause_in_words(stand)).toMatch(/^waited until crate is out of the way.* \(2\.0 s\)$/);
     const [mark] = known_lanes({ store }, 0).flatMap(({ marks }) => marks.filter(({ kind }) => kind === 'pause'));
     expect(mark?.waits_on?.id).toBe('crate');
+  });
+});
+
+describe('Waiting job', () => {
+  const bare = { links: [], own_time_s: null, other_time_s: null, clearance_m: null };
+  const behind = { kind: 'predecessor', id: 'arm3-16', arm: null, ...bare };
+  const forecast = (id: string, ends_s: number | null): Forecast => ({ now_s: 40, horizon_steps: 4, arms: [{ name: 'left', waiting: 0, steps: [{ id, name: '', arms: ['left'], state: 'paused', progress: 0.4, starts_s: 2, ends_s, pauses: [] }] }] }) as unknown as Forecast;
+
+  it('names the job that goes first, how many jobs that are, and since when the arm is at rest', () => {
+    const store = store_of([
+      job_json('done', { state: 'succeeded', started_s: 3, ended_s: 12, submitted_s: 1 }),
+      ...[14, 15, 16].map((k) => job_json(`arm3-${k}`, { arms: ['right'], state: 'scheduled', submitted_s: k / 10 })),
+      job_json('arm3-17', { arms: ['right'], state: 'queued', submitted_s: 1.7 }),
+      job_json('next', { submitted_s: 1.65, waits_on: [behind] }),
+    ]);
+    store.book.set_order({ stopped: false, running: [], scheduled: ['arm3-14', 'arm3-15', 'arm3-16'], queued: ['next', 'arm3-17'], backlog: [] });
+    store.t_s = 40.7;
+    const { behind: first, more } = turn_in_words(store.job('next') as Job, store);
+    expect(first + more).toBe('behind arm3-16 (3 jobs), at rest 28 s');
+    expect(blocker_of(store.job('next') as Job)).toEqual({ page: 'job', id: 'arm3-16' });
+    expect(told(store, 'left')).toEqual(['waiting', 'behind arm3-16']);
+  });
+
+  it('says which links its end would bring together', () => {
+    const reason = { ...behind, arm: 'arm3', links: ['left_link5', 'arm3_link6'], own_time_s: 4, other_time_s: 0.2, clearance_m: 0.012, detail: 'x' };
+    expect(reason_in_words(store_of([job_json('j', { waits_on: [reason] })]).job('j') as Job)).toBe('waits its turn: arm3-16 of arm3 goes first: at its end left_link5 would be within 12 mm of arm3_link6');
+  });
+
+  it('is flagged if later jobs overtake it', () => {
+    const job = store_of([job_json('j', { starvation: { waits_since_s: 2, bound_s: 30, overtaken_by: 9 } })]).job('j') as Job;
+    expect(starvation_in_words(job)?.text).toBe('overtaken by 9 jobs');
+    expect(starvation_in_words(store_of([job_json('j')]).job('j') as Job)).toBeNull();
+  });
+
+  it('has no predicted end while an object, an arm at rest or a stop blocks it', () => {
+    const paused = (wait: object, over = {}) => store_of([job_json('p', { state: 'paused', started_s: 2, waits_on: [wait], ...over })]);
+    const when = (store: Store, ends_s: number | null) => { store.t_s = 42; store.set_forecast(forecast('p', ends_s)); return when_in_words(store.job('p') as Job, store); };
+    expect(when(paused(crate, { expires_s: 62 }), 47)).toBe('paused for 40.0 s, until crate is moved · expires in 20.0 s');
+    expect(when(paused({ kind: 'arm', id: null, arm: 'right', ...bare }), 47)).toBe('paused for 40.0 s, until arm right moves away');
+    expect(when(paused({ kind: 'stop', id: null, arm: 'left', ...bare }), 47)).toBe('paused for 40.0 s, until its arm is resumed');
+    expect(when(paused(wait_json()), 47)).toBe('paused for 40.0 s · ends in about 5.0 s');
+    expect(when(paused(wait_json(), { expires_s: 44 }), 100)).toBe('paused for 40.0 s · end unknown · expires in 2.0 s');
+  });
+
+  it('has no predicted end once it has expired', () => {
+    const expired = store_of([job_json('p', { state: 'expired', started_s: 2, ended_s: 41 })]).job('p') as Job;
+    expect(step_of(expired, forecast('p', 100))).toBeNull();
   });
 });

@@ -267,11 +267,14 @@ void CertifiedCheck::report(const CoordinationDiagram::Answer& answer,
   verdict_.conflicts.push_back(std::move(conflict));
 }
 
-PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage, Configuration rest,
-                            double tracking_error, std::uint64_t& evaluations) {
+void check_passage(MotionStore& store, const PassageQuestion& passage, Configuration rest,
+                   double tracking_error, Verdict& verdict) {
+  PassageAnswer& is = verdict.passages.emplace_back(PassageAnswer::free);
+  std::optional<PassageBlock>& block = verdict.passage_blocks.emplace_back();
   const auto& arms = passage.motion.trajectory->arms();
   if (std::ranges::all_of(arms, [&](ArmId a) { return store.out_of_reach(a, passage.arm); })) {
-    return PassageAnswer::apart;
+    is = PassageAnswer::apart;
+    return;
   }
   const auto& joints = store.scene()->cell().arm(passage.arm).joints;
   Configuration at_rest = rest;
@@ -284,10 +287,12 @@ PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage, 
     const double duration_s = to_seconds(own.duration());
     const CoordinationDiagram::Answer answer = diagram.ask(
         {.duration_a = duration_s, .swept = true}, cell_budget(MotionChecker::kBudget, duration_s));
-    evaluations += answer.evaluations;
-    if (!answer.free) return PassageAnswer::blocked;
+    verdict.evaluations += answer.evaluations;
+    if (answer.free) continue;
+    is = PassageAnswer::blocked;
+    block = PassageBlock{diagram.proximity_of(*answer.conflict), answer.conflict->time_a};
+    return;
   }
-  return PassageAnswer::free;
 }
 
 }  // namespace armloom

@@ -81,8 +81,7 @@ Verdict MotionChecker::judge(const Question& question, CheckProgress* progress) 
     verdict = std::holds_alternative<Swept>(question.method) ? check.swept() : check.coordinated();
   }
   for (const PassageQuestion& passage : question.passages) {
-    verdict.passages.push_back(check_passage(
-        store_, passage, question.rest, tracking_error_of(question.method), verdict.evaluations));
+    check_passage(store_, passage, question.rest, tracking_error_of(question.method), verdict);
   }
   if (progress != nullptr && progress->is_interrupted()) return interrupted(question);
   return verdict;

@@ -10,6 +10,9 @@
 namespace armloom {
 namespace {
 
+// A pair of an arm with its mount counts as near below this multiple of the required clearance.
+constexpr double kNear = 3.0;
+
 bool includes(const PairGroup& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
 }
@@ -37,9 +40,13 @@ struct ClearanceQuery::Scratch {
   std::vector<std::size_t> order;  // indices in `open`: deepest overlap of capsules first
   LinkPoses X_WL;
   std::vector<Candidate> candidates;
+  std::vector<std::pair<ArmId, std::size_t>> stands_on;  // an arm, and an object (Bodies::bodies)
 
   Scratch(PlanningScenePtr s, const PairLimits& limits)
-      : scene(std::move(s)), bodies(scene->bodies()), placed(bodies, limits) {}
+      : scene(std::move(s)),
+        bodies(scene->bodies()),
+        placed(bodies, limits),
+        stands_on(objects_below(bodies)) {}
 
   // ---- Many states ----
 
@@ -123,26 +130,62 @@ struct ClearanceQuery::Scratch {
     return body_distance(bodies.shapes, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
   }
 
-  // Returns the closest pair of the group, or nullopt if none is closer than limit_m. Tries pairs
-  // with a small lower bound first.
-  [[nodiscard]] std::optional<NearPair> closest(const PairGroup& group, double limit_m) {
+  // Returns the closest pair of the group that is closer than `limit_of(pair)`, or nullopt. Tries
+  // pairs with a small lower bound first.
+  template <class LimitOf>
+  [[nodiscard]] std::optional<NearPair> closest(const PairGroup& group, const LimitOf& limit_of) {
     std::optional<NearPair> found;
-    const double asked_m = limit_m;
     const auto begin =
         std::ranges::lower_bound(candidates, group.pairs_begin, {}, &Candidate::pair);
     const auto end = std::ranges::lower_bound(candidates, group.pairs_end, {}, &Candidate::pair);
     std::sort(begin, end, [](const Candidate& x, const Candidate& y) {
       return std::pair(x.least_m, x.pair) < std::pair(y.least_m, y.pair);
     });
-    for (auto at = begin; at != end && at->least_m < limit_m; ++at) {
+    for (auto at = begin; at != end && (!found || at->least_m < found->clearance_m); ++at) {
+      const double asked_m = limit_of(at->pair);
+      const double limit_m = found ? std::min(asked_m, found->clearance_m) : asked_m;
+      if (at->least_m >= limit_m) continue;
       const double d = distance(at->pair, limit_m);
-      if (d >= limit_m) continue;
-      limit_m = d;
-      found = {PairId{static_cast<std::uint32_t>(at->pair)}, d, asked_m};
+      if (d < limit_m) found = {PairId{static_cast<std::uint32_t>(at->pair)}, d, asked_m};
     }
     // Restore the order by pair, which the other groups need.
     std::sort(begin, end, [](const Candidate& x, const Candidate& y) { return x.pair < y.pair; });
     return found;
+  }
+
+  [[nodiscard]] bool is_at_mount(const PairGroup& group, std::size_t pair) const {
+    if (group.kind == PairGroup::Kind::mount) return true;
+    if (group.kind != PairGroup::Kind::still) return false;
+    const auto& [a, b] = bodies.pairs[pair];
+    return is_first_link(a) ||
+           std::ranges::find(stands_on, std::pair(group.arm, b)) != stands_on.end();
+  }
+
+  // Returns each arm with the objects that its mount may touch.
+  [[nodiscard]] static std::vector<std::pair<ArmId, std::size_t>> objects_below(
+      const PlanningScene::Bodies& bodies) {
+    std::vector<std::pair<ArmId, std::size_t>> found;
+    for (const auto& [link, object] : bodies.cell->allowed.link_objects) {
+      for (std::uint32_t arm = 0; arm < bodies.cell->arms.size(); ++arm) {
+        if (!bodies.cell->is_mount(link, ArmId{arm})) continue;
+        for (std::size_t body = 0; body < bodies.bodies.size(); ++body) {
+          const CollisionBody& of = bodies.bodies[body];
+          if (!of.carrier && of.name == object) found.emplace_back(ArmId{arm}, body);
+        }
+      }
+    }
+    return found;
+  }
+
+  // Returns true if the body is a link that the first movable joint of its arm moves, and no other.
+  [[nodiscard]] bool is_first_link(std::size_t body) const {
+    const CollisionBody& of = bodies.bodies[body];
+    if (!of.link) return false;
+    int joints = 0;
+    for (std::optional<LinkId> at = of.link; at; at = bodies.cell->link(*at).parent) {
+      joints += bodies.cell->link(*at).driver ? 1 : 0;
+    }
+    return joints == 1;
   }
 };
 
@@ -191,28 +234,41 @@ std::vector<Proximity> ClearanceQuery::closest_too_close(const Configuration& q)
   scratch_->find_candidates(q, [](const PairGroup&) { return true; });
   std::vector<Proximity> found;
   for (const PairGroup& group : scratch_->bodies.groups) {
-    const auto pair = scratch_->closest(group, group.limit_m(scratch_->placed.limits()));
+    const double limit_m = group.limit_m(scratch_->placed.limits());
+    const auto pair = scratch_->closest(group, [&](std::size_t) { return limit_m; });
     if (pair) found.push_back(describe(*pair));
   }
   return found;
 }
 
-std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, double horizon_m) {
+ClearanceQuery::Closest ClearanceQuery::closest_apart(const Configuration& q, double horizon_m) {
   const PairLimits limits = scratch_->placed.limits();
+  const double near_m = kNear * scratch_->bodies.cell->clearances.clearance_m;
   set_limits({horizon_m, 0.0, horizon_m});
   using Kind = PairGroup::Kind;
   scratch_->find_candidates(q, [](const PairGroup& group) { return group.kind != Kind::self; });
-  std::vector<Proximity> found;
+  Closest found;
   for (const PairGroup& group : scratch_->bodies.groups) {
     if (group.kind == Kind::self) continue;
+    const auto is_at_mount = [&](std::size_t pair) { return scratch_->is_at_mount(group, pair); };
+    const auto apart = scratch_->closest(group, [&](std::size_t pair) {
+      return is_at_mount(pair) ? std::min(near_m, horizon_m) : horizon_m;
+    });
+    if (group.kind != Kind::arms) {
+      const auto at_mount = scratch_->closest(
+          group, [&](std::size_t pair) { return is_at_mount(pair) ? horizon_m : 0.0; });
+      if (at_mount && at_mount->clearance_m >= near_m) {
+        found.at_mount.push_back(describe(*at_mount));
+      }
+    }
+    if (!apart) continue;
     // Here, an arm's static bodies and its mount are one counterpart. The mount's group follows
     // directly after the group of the other static bodies.
-    const bool goes_on = group.kind == Kind::mount && !found.empty() && !found.back().arm_b &&
-                         found.back().arm_a == group.arm;
-    const auto pair = scratch_->closest(group, goes_on ? found.back().clearance_m : horizon_m);
-    if (!pair) continue;
-    if (goes_on) found.pop_back();
-    found.push_back(describe(*pair));
+    const bool goes_on = group.kind == Kind::mount && !found.apart.empty() &&
+                         !found.apart.back().arm_b && found.apart.back().arm_a == group.arm;
+    if (goes_on && apart->clearance_m >= found.apart.back().clearance_m) continue;
+    if (goes_on) found.apart.pop_back();
+    found.apart.push_back(describe(*apart));
   }
   set_limits(limits);
   return found;

@@ -57,9 +57,16 @@ class ClearanceQuery {
 
   // Returns the closest pair of each group (PairGroup), if it is closer than its limit.
   [[nodiscard]] std::vector<Proximity> closest_too_close(const Configuration& q);
-  // Returns the closest pair of each two arms, and of each arm with all static bodies (its mount
-  // included), if closer than `horizon_m`. Ignores the limits.
-  [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
+  struct Closest {
+    std::vector<Proximity> apart;  // of each two arms, and of each arm with static bodies
+    // Pairs of an arm with what it stands on, because their distances hardly change:
+    // - all links with the bodies of Cell::is_mount, and with objects that these may touch
+    // - the link that only the arm's first joint moves, with any static body
+    // Such a pair is in `apart` if it is closer than three times Cell::clearances.clearance_m.
+    std::vector<Proximity> at_mount;
+  };
+  // Returns the closest pairs that are closer than `horizon_m`, whatever their limits are.
+  [[nodiscard]] Closest closest_apart(const Configuration& q, double horizon_m);
 
   // Returns the names and arms of the two bodies. body_a belongs to the arm with the smaller id.
   // body_b belongs to the other arm, or is a static link or an object.

@@ -176,7 +176,9 @@ Closed aging(const Turns& turns, const Record& record) {
   if (!old) return std::nullopt;
   const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old).job);
   if (!may_go || !record.job.is_waiting() || record.job.judgement().found.empty()) {
-    return order(*old);
+    return FoundWaits(Wait{.kind = Wait::Kind::predecessor,
+                           .job = *old,
+                           .detail = "that job has waited longer than aging_s"});
   }
   return FoundWaits(record.job.judgement().found);  // the older one may be about to go
 }

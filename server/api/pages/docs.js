@@ -126,5 +126,5 @@ function openTarget() {
   target.scrollIntoView();
 }
 addEventListener("hashchange", openTarget);
-fetch("/openapi.json").then((answer) => answer.json()).then((document_) => { render(document_); openTarget(); })
+fetch("openapi.json").then((answer) => answer.json()).then((document_) => { render(document_); openTarget(); })
   .catch((error) => document.querySelector("main").append(element("p", {role: "alert"}, "openapi.json cannot be read: " + error)));

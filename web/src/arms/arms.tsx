@@ -2,13 +2,15 @@
 
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
-import { when_in_words } from '../jobs/when';
+import { blocker_of } from '../jobs/blocker';
+import { Starves } from '../jobs/starves';
+import { turn_in_words } from '../jobs/when';
 import type { Arm, Job } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
-import { reason_in_words, short_id, title_of, waited_for } from '../wording';
+import { reason_in_words, short_id, title_of, until_in_words } from '../wording';
 import { kText } from '../strings';
 import { Bar } from './bar';
 
@@ -28,6 +30,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
   const waiting = !job && store.arm_state(arm) === 'waiting' ? store.waiting_of(arm.name) : null;
+  const held = waiting ?? (job?.state === 'paused' && job.waits_on.length > 0 ? job : null);
   const progress = job ? store.progress(job) : 0;
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
@@ -40,19 +43,28 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? kText.arm.unknown_then : kText.arm.no_job}</span>}
+          {waiting ? <span class="grow ellipsis">{title_of(waiting)}</span> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? kText.arm.unknown_then : kText.arm.no_job}</span>}
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
-        <Bar share={progress} />
+        {!waiting && <Bar share={progress} />}
       </Link>
+      {held && <Waiting job={held} app={app} />}
     </div>
   );
 }
 
-/** Shows what the arm's next job waits for, and since when. */
+/** Shows what the arm's next job waits for, with a link to it, and since when. */
 function Waiting({ job, app }: { job: Job; app: App }) {
-  const short = [waited_for(job), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
-  return <span class="grow ellipsis waiting" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>{short}</span>;
+  const turn = turn_in_words(job, app.store);
+  const until = job.state === 'paused' ? until_in_words(job) : '';
+  const { behind, more } = until === '' ? turn : { behind: until, more: '' };
+  const to = blocker_of(job) ?? { page: 'job', id: job.id };
+  return (
+    <p class="waiting small" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>
+      <Link app={app} to={to} test="arm-waits-for">{behind}</Link>{more}
+      <Starves job={job} />
+    </p>
+  );
 }
 
 export function StatePill({ arm, app }: { arm: Arm; app: App }) {

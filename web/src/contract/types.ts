@@ -185,6 +185,15 @@ export interface components {
                 time_saved_s: number | null;
                 detail: string;
             };
+            /** @description Present if the job starves: it has waited longer than `aging_s` while jobs that were submitted later went first */
+            starvation?: {
+                /** @description Cell time since which the job is the first of its arms and was not admitted */
+                waits_since_s: number;
+                /** @description `aging_s` of the cell: the job is flagged if it is overtaken after this time */
+                bound_s: number;
+                /** @description Number of jobs, submitted later, that were admitted since then */
+                overtaken_by: number;
+            };
             /** @description Ids of the jobs in the deadlock cycle that contains this job, this job first. Each job waits for the next, and the last for the first. Empty if the job is in no cycle */
             cycle: string[];
             /** @description Result of an ended job; else null */
@@ -690,13 +699,13 @@ export interface components {
             arm: string | null;
             /** @description Link of this job's arm, then the other link or object; empty without evidence */
             links: string[];
-            /** @description Time of the conflict from the start of this trajectory */
+            /** @description Time of the conflict from the start of this trajectory. For kind predecessor the end of the trajectory, if this job would end in the path of that job */
             own_time_s: number | null;
             /** @description Time of the conflict from the start of the other trajectory */
             other_time_s: number | null;
             /** @description Distance found; zero or negative in contact */
             clearance_m: number | null;
-            /** @description Details, for example the cause of a stop */
+            /** @description Details, for example the cause of a stop, or why a predecessor goes first */
             detail?: string;
             /** @description While the job is being checked: share of the limit of evaluations used so far. Most checks end before the limit */
             progress?: number;

@@ -1,4 +1,5 @@
-// The header: cell, navigation, connection state, and Stop always at the right end.
+// The header: cell, navigation, connection state, and at the right end Resume and Stop. Stop is at the
+// same place on every screen and in every state.
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -34,9 +35,11 @@ export function Header({ app }: { app: App }) {
         {store.policy === 'timed_discrete' && <span class="fact" data-test="no-certificate" title={kWords.no_certificate_title}>{kWords.no_certificate}</span>}
         <CellTime app={app} />
       </div>
-      <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title={kText.common.open_recovery} data-test="to-resume"
-        onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
-      <StopButton app={app} />
+      <div class="head-commands">
+        <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title={kText.common.open_recovery} data-test="to-resume"
+          onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
+        <StopButton app={app} />
+      </div>
     </header>
   );
 }

@@ -1,5 +1,6 @@
 // The Settings page: theme, user, keys, the settings of the cell, the policy.
 
+import { address_on_server } from '../server/api';
 import type { App } from '../state/app';
 import type { Theme } from '../state/settings';
 import { seconds } from '../wording';
@@ -22,7 +23,7 @@ export function SettingsPage({ app }: { app: App }) {
   const { settings, store } = app;
   const session = app.session.value;
   const log_out = async () => {
-    if (await app.actions.ask(kWords.log_out, app.api.log_out())) location.assign('/login');
+    if (await app.actions.ask(kWords.log_out, app.api.log_out())) location.assign(address_on_server('login'));
   };
   const { cell } = store;
   return (
@@ -70,7 +71,7 @@ export function SettingsPage({ app }: { app: App }) {
           <h2>{kText.policies.title}</h2>
           <PolicyForm app={app} />
           <p class="hint"><Link app={app} to={{ page: 'policies' }} test="compare-policies">{kWords.compare}</Link></p>
-          <p class="hint"><a class="link" href="/docs">{kWords.api}</a></p>
+          <p class="hint"><a class="link" href={address_on_server('docs')}>{kWords.api}</a></p>
         </section>
       )}
     </div>

@@ -1,6 +1,7 @@
 // A button that copies text to the clipboard and says if that worked.
 
 import { useState } from 'preact/hooks';
+import { address_on_server } from '../server/api';
 import type { App } from '../state/app';
 import { kText } from '../strings';
 import type { Asked } from './snippets';
@@ -22,7 +23,7 @@ export function Copy({ what, text }: { what: string; text(): string | Promise<st
 
 /** Returns how a program reaches the server of this page. */
 export function asked_of(app: App): Asked {
-  return { origin: location.origin, with_token: app.session.value?.auth_required ?? false };
+  return { origin: address_on_server('').replace(/\/$/, ''), with_token: app.session.value?.auth_required ?? false };
 }
 
 /**

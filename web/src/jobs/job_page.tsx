@@ -17,6 +17,7 @@ import { short_wall_time } from '../wall_time';
 import { JobActions } from './actions';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
+import { Starves } from './starves';
 import { states_of, pause_in_words } from './states';
 import { when_in_words } from './when';
 import { shown_json, shown_name } from '../names';
@@ -50,6 +51,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       </p>
       {words !== '' && <p class="words">{words}</p>}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
+      <Starves job={job} />
       <States job={job} app={app} />
       {path_in_words(job).map((words) => <p key={words} class="hint" data-test="path">{words}</p>)}
       {looks_back ? null : former ? <p class="hint" data-test="former">{kWords.from_store}</p> : <Beside job={job} app={app} />}
@@ -110,9 +112,10 @@ function Evidence({ job, app }: Props) {
         {job.waits_on.map((wait, i) => (
           <li key={i}>
             <div class="why">{wait_in_words(wait)}</div>
+            {wait.kind === 'predecessor' && wait.id !== null && <Link app={app} to={{ page: 'job', id: wait.id }} test="show-first">{kText.page.job(short_id(wait.id))}</Link>}
             {wait.id !== null && wait.other_time_s !== null && <div class="dim small">{kWords.time_in_other(wait.other_time_s.toFixed(2), short_id(wait.id))}</div>}
             {wait.kind === 'object' && <Link app={app} to={{ page: 'scene', name: wait.id ?? wait.links[1] ?? null }} test="show-object">{kWords.show_in_scene}</Link>}
-            {wait.kind === 'job' && wait.id !== null && <Link app={app} to={{ page: 'pair', a: wait.id, b: job.id }}>{kWords.show_conflict}</Link>}
+            {wait.id !== null && (wait.kind === 'job' || wait.links.length > 0) && <Link app={app} to={{ page: 'pair', a: wait.id, b: job.id }}>{kWords.show_conflict}</Link>}
           </li>
         ))}
       </ul>

@@ -11,9 +11,10 @@ import { is_terminal } from '../state/job_book';
 import { arm_color } from '../state/palette';
 import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
-import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, short_id, title_of } from '../wording';
-import { Cancel, Urgency, waits } from './actions';
-import { step_of, when_in_words } from './when';
+import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, title_of } from '../wording';
+import { Starves } from './starves';
+import { Cancel, is_blocked_by_object, Urgency, waits, WaysOn } from './actions';
+import { known_end_of, step_of, turn_in_words, when_in_words } from './when';
 import { shown_name } from '../names';
 import { kText } from '../strings';
 
@@ -54,8 +55,10 @@ export function Row({ job, app }: Props) {
         </Link>
       )}
       {!ended && <When job={job} app={app} />}
+      <Starves job={job} />
+      {is_blocked_by_object(job, app) && <WaysOn job={job} app={app} />}
       {waits(job) && <Urgency job={job} app={app} />}
-      {!ended && <Cancel job={job} app={app} />}
+      {!ended && !is_blocked_by_object(job, app) && <Cancel job={job} app={app} />}
     </article>
   );
 }
@@ -65,7 +68,7 @@ export function Row({ job, app }: Props) {
  * blocking object. Null if neither exists.
  */
 function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | null {
-  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
+  const blocker = job.waits_on.find((wait) => wait.id !== null && (wait.kind === 'job' || (wait.kind === 'predecessor' && wait.links.length > 0)))?.id ?? null;
   if (blocker !== null) return { page: 'pair', a: blocker, b: job.id };
   const object = object_of(job);
   return object === null ? null : { page: 'scene', name: object };
@@ -79,13 +82,14 @@ function Progress({ job, app }: Props) {
 function Figure({ job, app }: Props) {
   if (!is_terminal(job)) use_beats(app.store);
   const stale = use_stale(app.store) && !is_terminal(job);
-  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), step_of(job, app.store.forecast)?.ends_s ?? null);
+  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), known_end_of(job, step_of(job, app.store.forecast)));
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 
 /** Returns true if the job only waits its turn. This reason is shown in one line with the times. */
 function only_waits_its_turn(job: Job): boolean {
-  return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
+  const [first] = job.waits_on;
+  return first?.kind === 'predecessor' && first.links.length === 0 && job.cycle.length === 0 && !job.result;
 }
 
 function Reason({ job }: { job: Job }) {
@@ -97,8 +101,8 @@ function Reason({ job }: { job: Job }) {
 /** Shows how long the job has been blocked, and when it will start and expire. */
 function When({ job, app }: Props) {
   use_beats(app.store);
-  const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
-  const words = [first === null ? '' : kWords.after(short_id(first)), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
+  const turn = job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 ? turn_in_words(job, app.store) : null;
+  const words = [turn === null ? '' : turn.behind + turn.more, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   const stale = use_stale(app.store);
   return words === '' ? null : <span class="when" data-test="when">{stale ? kWords.last_known(words) : words}</span>;
 }

@@ -12,8 +12,16 @@ const kAnswers = kText.server.answers;
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
 
-/** The prefix of all API paths. */
+/** The prefix of all API paths on the server. */
 export const kApi = '/api/v1';
+
+/**
+ * Returns the address of a path of the server. It is relative to the page, because a reverse proxy
+ * may serve the page below a path: "/api/v1" is then "/cells/a/api/v1".
+ */
+export function address_on_server(path: string, page = document.baseURI): string {
+  return new URL(path.replace(/^\/+/, ''), page).href;
+}
 
 export class Api {
   constructor(private readonly base_: string, private readonly fetch_: Fetch) {}

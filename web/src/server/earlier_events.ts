@@ -3,16 +3,26 @@
 import { parse_message, type SequencedMessage } from './messages';
 import type { Fetch } from './api';
 
-const kMost = 1000;
+// Numbers of events to request: about five minutes of eight busy arms. If the server no longer keeps
+// so many, it answers with a snapshot, and then fewer are requested.
+const kMost = [5000, 1000];
 const kPatience_ms = 15_000;
 
 /**
- * Returns the last thousand events up to number `until`. Returns none if the server no longer has
- * them or does not answer.
+ * Returns the events up to number `until`, as many as the server keeps. Returns none if the server
+ * no longer has them or does not answer.
  */
 export async function earlier_events(base: string, fetch: Fetch, stream: string, until: number): Promise<SequencedMessage[]> {
   if (until <= 0) return [];
-  const since = Math.max(0, until - kMost);
+  for (const [i, most] of kMost.entries()) {
+    if (i > 0 && until <= most) continue;  // all events were requested already
+    const events = await events_since(base, fetch, stream, Math.max(0, until - most), until);
+    if (events !== 'forgotten') return events;
+  }
+  return [];
+}
+
+async function events_since(base: string, fetch: Fetch, stream: string, since: number, until: number): Promise<SequencedMessage[] | 'forgotten'> {
   const stop = new AbortController();
   const timer = setTimeout(() => stop.abort(), kPatience_ms);
   const events: SequencedMessage[] = [];
@@ -21,7 +31,7 @@ export async function earlier_events(base: string, fetch: Fetch, stream: string,
     if (!response.ok || !response.body) return [];
     for await (const message of messages_of(response.body.getReader())) {
       // The server sends a snapshot if it no longer has all events since the requested number.
-      if (message.type === 'snapshot') return [];
+      if (message.type === 'snapshot') return message.stream === stream ? 'forgotten' : [];
       if (message.stream !== stream) return [];
       if (message.seq <= until) events.push(message);
       if (message.seq >= until) break;

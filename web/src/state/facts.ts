@@ -135,6 +135,25 @@ export class Facts {
   }
 
   /**
+   * Returns the time since when the arm could have begun this job, which has not started: the job is
+   * submitted, and the arm's last job has ended.
+   */
+  rests_since(job: Job): number {
+    return Math.max(job.submitted_s, ...job.arms.map((arm) => this.book.free_since(arm)));
+  }
+
+  /**
+   * Returns the number of unfinished jobs up to and including the first job that `job` waits for, on
+   * the arms of that job. Null if `job` does not wait for a job of other arms to go first.
+   */
+  jobs_ahead({ waits_on: [first], arms }: Job): number | null {
+    const before = first?.kind === 'predecessor' && first.id !== null ? this.job(first.id) : null;
+    if (!before || is_terminal(before) || before.arms.some((arm) => arms.includes(arm))) return null;
+    return 1 + this.book.open.filter((other) => other.id !== before.id && other.submitted_s <= before.submitted_s
+      && this.book.is_ahead(other.id, before.id) && other.arms.some((arm) => before.arms.includes(arm))).length;
+  }
+
+  /**
    * Returns the measured positions of the arm's joints, in the arm's order. A joint without a
    * measurement has the position in the last arm event.
    */

@@ -67,13 +67,27 @@ export class JobBook {
     this.heard_ = new Map(jobs.map((job) => {
       const known = before.get(job.id);
       const same_state = known?.job.state === job.state;
-      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses: known?.pauses ?? [], changes: known?.changes ?? [] }];
+      const pauses = known?.pauses ?? [];
+      note_pause(pauses, job, t_s);
+      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses, changes: known?.changes ?? [] }];
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
     this.ended_from_s_ = ended_from_s === undefined ? ended_from(jobs) : ended_from_s;
     this.endings_ += 1;
     this.lists_ = null;
+  }
+
+  /**
+   * Takes the pauses, the changes and the times of states from a book that has read more of the
+   * session's events than this book, up to the same event.
+   */
+  learn_history(longer: JobBook): void {
+    for (const [id, heard] of this.heard_) {
+      const other = longer.heard_.get(id);
+      if (other) this.heard_.set(id, { ...heard, since_s: other.since_s, pauses: other.pauses, changes: other.changes });
+    }
+    this.endings_ += 1;
   }
 
   take(job: Job, t_s: number): void {
@@ -151,7 +165,7 @@ export class JobBook {
     return this.heard_.has(id) && !this.open_.has(id);
   }
 
-  /** A number that changes whenever the ended jobs change. */
+  /** A number that changes whenever the ended jobs change, or their history. */
   get endings(): number {
     return this.endings_;
   }
@@ -173,6 +187,21 @@ export class JobBook {
       jobs.push(job);
     }
     return jobs;
+  }
+
+  /** Returns the end of the arm's last ended job, or 0 if the page knows none. */
+  free_since(arm: string): number {
+    for (let i = this.ended_.length - 1; i >= 0; i--) {
+      const job = this.ended_[i];
+      if (job && job.started_s !== null && job.arms.includes(arm)) return ended(job);
+    }
+    return 0;
+  }
+
+  /** Returns true if an unfinished job comes before another in the server's lists. */
+  is_ahead(id: string, other: string): boolean {
+    const [a, b] = [this.order_.get(id), this.order_.get(other)];
+    return a !== undefined && (b === undefined || a < b);
   }
 
   /**
@@ -236,7 +265,7 @@ function note_pause(pauses: Pause[], job: Job, t_s: number): void {
     open.why = why ?? open.why;
     return;
   }
-  if (open) open.to_s = t_s;
+  if (open) open.to_s = job.ended_s ?? t_s;
   if (job.state === 'paused') remember(pauses, { from_s: t_s, to_s: null, stopped, why });
 }
 

@@ -29,9 +29,9 @@ export class Redraw {
   }
 
   private draw(): void {
-    this.asked_ = false;
     const began_ms = this.now_ms_();
     this.draw_();
+    this.asked_ = false;  // what changed meanwhile is drawn too: components are drawn after this function
     // Measures in a new task, because components are drawn after this function returns and before
     // the next task.
     this.timers_.set(() => this.wait(Math.max(kBurst_ms, Math.min(kLongestRest_ms, this.now_ms_() - began_ms))), 0);

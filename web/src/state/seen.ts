@@ -1,7 +1,8 @@
 // The store as components see it: a component that reads it is drawn again when the store changes.
 // No component subscribes by itself, because a forgotten subscription would go unnoticed. (A
 // component that reads any signal is not drawn together with its parent if its properties are
-// unchanged.)
+// unchanged.) Received events enter the store only here, in the same task as the redraw. So all
+// views of a frame show the same state, however late a busy page draws.
 
 import { signal, type Signal } from '@preact/signals';
 import { Redraw } from './redraw';
@@ -29,7 +30,11 @@ function drawings_of(store: Store): Signal<number> {
   const drawn = signal(0);
   drawings.set(store, drawn);
   const timers = { set: (callback: () => void, delay_ms: number) => Number(setTimeout(callback, delay_ms)), clear: (id: number) => clearTimeout(id) };
-  const redraw = new Redraw(() => { drawn.value += 1; }, timers, () => performance.now());
+  const redraw = new Redraw(() => {
+    store.collect();
+    drawn.value += 1;
+  }, timers, () => performance.now());
   store.on_change(() => redraw.ask());
+  store.on_arrival(() => redraw.ask());
   return drawn;
 }

@@ -6,7 +6,7 @@ import type { Link } from '../server/connection';
 import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
 import { Facts } from './facts';
 import { Log } from './log';
-import { ProgressBook } from './progress_book';
+import { ProgressBook, progress_at } from './progress_book';
 import { from_now, Pulse } from './pulse';
 import { at_rest, before_all, beginning_of, folded } from './snapshots';
 import { Trace } from './trace';
@@ -19,6 +19,8 @@ export interface Frames { names: readonly string[]; t_s: readonly number[]; q: r
 const kLate_ms = 5_000;
 const kSilent_ms = 1000;
 const kMissed_s = 0.5;
+// If more messages wait for a redraw than this, they are applied at once: a hidden page is rarely drawn.
+const kMostWaiting = 2000;
 
 export class Store extends Facts {
   cell: Cell | null = null;
@@ -39,6 +41,9 @@ export class Store extends Facts {
   private late_ms_ = 0;
   private heard_at_ms_: number | null = null;
   private earlier_states_: MeasuredStates | null = null;
+  private waiting_: (() => void)[] = [];
+  /** The time at which views show progress: that of the last beat or change. */
+  private moment_s_ = 0;
 
   /** `measured` are the trace and the progress of another store, which a past state shares. */
   constructor(private readonly now_ms_: () => number = () => performance.now(), measured: { trace: Trace; courses: ProgressBook } | null = null) {
@@ -61,6 +66,27 @@ export class Store extends Facts {
   }
   on_beat(listener: () => void): () => void {
     return from_now(this.beats, listener);
+  }
+
+  on_arrival(listener: () => void): () => void {
+    return from_now(this.pulse_.arrivals, listener);
+  }
+
+  /**
+   * Takes an event at the next redraw (collect()), so that no view shows it before the others. A pose
+   * is taken at once if no event waits. `take` replaces this store's take().
+   */
+  receive(message: Message, take: (message: Message) => void = (one) => this.take(one)): void {
+    if (message.type === 'state' && this.waiting_.length === 0) return take(message);
+    this.waiting_.push(() => take(message));
+    if (this.waiting_.length > kMostWaiting) this.collect();
+    else this.pulse_.arrive();
+  }
+
+  /** Takes all messages that wait, in order. */
+  collect(): void {
+    for (const take of this.waiting_.splice(0)) take();
+    this.moment_s_ = this.t_s;
   }
 
   take(message: Message): void {
@@ -121,6 +147,7 @@ export class Store extends Facts {
    * with its arms and objects.
    */
   forget_all(): void {
+    this.waiting_ = [];
     this.link = { status: 'connecting' };
     this.stream = null;
     this.t_s = 0;
@@ -147,10 +174,23 @@ export class Store extends Facts {
     const fresh = messages.filter(({ stream, seq, type }) => type !== 'snapshot' && stream === this.stream && first?.stream === stream && seq <= first.seq);
     if (first?.type !== 'snapshot' || fresh.length === 0) return;
     this.log.put_before([before_all(first, fresh), ...fresh]);
-    this.halts_.clear();
-    for (const message of this.log.entries) this.halts_.take(message);
+    this.read_history();
     this.notices_.take_earlier(fresh);
     this.pulse_.change();
+  }
+
+  /**
+   * Derives the pauses and stops from all events of the log, as if the page had been connected since
+   * the first of them.
+   */
+  private read_history(): void {
+    const facts = new Facts();
+    this.halts_.clear();
+    for (const message of this.log.entries) {
+      facts.apply(message);
+      this.halts_.take(message);
+    }
+    this.book.learn_history(facts.book);
   }
 
   /**
@@ -176,9 +216,21 @@ export class Store extends Facts {
     for (const name of this.arms.keys()) this.unknown_arms_.add(name);
   }
 
+  /**
+   * Returns the progress of a job (0 to 1) for all views: the measured progress if frames have it,
+   * else as Facts does. `job` may be older than the store.
+   */
+  override progress(job: Job): number {
+    const now = this.job(job.id) ?? job;
+    const moves = now.state === 'running' || now.state === 'paused';
+    const course = moves && now.duration_s > 0 ? this.courses.of(now.id) : null;
+    const progress_s = course && progress_at(course, Math.max(this.moment_s_, now.started_s ?? 0));
+    return progress_s === null ? super.progress(now) : Math.min(1, progress_s / now.duration_s);
+  }
+
   /** Sets the shown time. No event may lie between it and the last applied event. */
   look_at(t_s: number): void {
-    this.t_s = t_s;
+    this.t_s = this.moment_s_ = t_s;
     this.pulse_.beat();
   }
 
@@ -199,6 +251,7 @@ export class Store extends Facts {
   }
 
   set_link(link: Link): void {
+    this.collect();
     this.link = link;
     if (link.status === 'lost') this.trace.break_off();
     this.pulse_.change();
@@ -271,7 +324,7 @@ export class Store extends Facts {
     this.trace.push(frame.t_s, frame.q);
     this.put_in_earlier_states();
     this.courses.take(frame.t_s, frame.motions);
-    this.pulse_.frame();
+    this.pulse_.frame(() => { this.moment_s_ = this.t_s; });
     if (frame.speed === this.speed) return;
     this.speed = frame.speed;
     this.pulse_.change();

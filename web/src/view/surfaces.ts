@@ -8,6 +8,7 @@ import { ColladaLoader } from 'three/addons/loaders/ColladaLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
+import { address_on_server } from '../server/api';
 import { turned_inside_out } from './shapes';
 
 /** Surfaces by the address of their mesh file. Null if the file cannot be read. */
@@ -48,7 +49,7 @@ export class SurfaceShelf {
 async function fetch_bytes(address: string): Promise<ArrayBuffer> {
   // Mesh addresses must be paths of this server.
   if (!/^\/api\//.test(address)) throw new Error('not an address of this server');
-  const response = await fetch(address);
+  const response = await fetch(address_on_server(address));
   if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
   return response.arrayBuffer();
 }
