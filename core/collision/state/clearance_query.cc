@@ -47,25 +47,22 @@ struct ClearanceQuery::Scratch {
     return bodies_closer_than(bodies.shapes, o.a, o.b, o.limit_m);
   }
 
-  // Adds to `close` the lanes in which a hit is too close. If inner balls do not decide a pair of
+  // Adds to `close` the lanes in which the hit is too close. If inner balls do not decide a pair of
   // meshes, adds the pair to `open`. Deciding it can wait, because most states that are too close
   // also have a pair that overlaps deeply.
-  void decide_soon(const PlacedCell::Comparison& c, std::span<const filter::Hit> found,
-                   const std::vector<NarrowPair>& narrow, unsigned& close) {
-    for (const filter::Hit& hit : found) {
-      const NarrowPair& pair = narrow[static_cast<std::size_t>(hit.pair)];
-      for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
-        const unsigned bit = 1U << lane;
-        if ((hit.lanes & ~close & bit) == 0) continue;
-        const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
-                     pair.limit_m, lane, hit.distance[lane]};
-        const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
-        if (meshes ? bodies_surely_closer_than(bodies.shapes, o.a, o.b, o.limit_m)
-                   : closer_than_limit(o)) {
-          close |= bit;
-        } else if (meshes) {
-          open.push_back(o);
-        }
+  void decide_soon(const PlacedCell::Comparison& c, const filter::Hit& hit, const NarrowPair& pair,
+                   unsigned& close) {
+    for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
+      const unsigned bit = 1U << lane;
+      if ((hit.lanes & ~close & bit) == 0) continue;
+      const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
+                   pair.limit_m, lane, hit.distance[lane]};
+      const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
+      if (meshes ? bodies_surely_closer_than(bodies.shapes, o.a, o.b, o.limit_m)
+                 : closer_than_limit(o)) {
+        close |= bit;
+      } else if (meshes) {
+        open.push_back(o);
       }
     }
   }
@@ -77,8 +74,9 @@ struct ClearanceQuery::Scratch {
     open.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
       if (close == all) return close;
-      placed.filter(c, all & ~close,
-                    [&](auto found, const auto& narrow) { decide_soon(c, found, narrow, close); });
+      placed.filter(c, all & ~close, [&](const filter::Hit& hit, const NarrowPair& pair) {
+        decide_soon(c, hit, pair, close);
+      });
     }
     order.resize(open.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -102,12 +100,9 @@ struct ClearanceQuery::Scratch {
     placed.place(state);
     candidates.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
-      placed.filter(c, 1U, [&](auto found, const auto& narrow) {
-        for (const filter::Hit& hit : found) {
-          const PairId pair = narrow[static_cast<std::size_t>(hit.pair)].pair;
-          if (!wanted(bodies.group_of(pair))) continue;
-          candidates.push_back({static_cast<double>(hit.distance[0]), pair.index()});
-        }
+      placed.filter(c, 1U, [&](const filter::Hit& hit, const NarrowPair& narrow) {
+        if (!wanted(bodies.group_of(narrow.pair))) return;
+        candidates.push_back({static_cast<double>(hit.distance[0]), narrow.pair.index()});
       });
     }
     std::ranges::sort(candidates, {},
@@ -143,6 +138,44 @@ struct ClearanceQuery::Scratch {
     // Restore the order by pair, which the other groups need.
     std::sort(begin, end, [](const Candidate& x, const Candidate& y) { return x.pair < y.pair; });
     return found;
+  }
+
+  // An arm's mount and its other static bodies are one counterpart. The mount's group follows
+  // directly after the group of the other static bodies.
+  [[nodiscard]] static bool goes_on(const PairGroup& group, const PairGroup* before) {
+    return group.kind == PairGroup::Kind::mount && before != nullptr &&
+           before->kind == PairGroup::Kind::still && before->arm == group.arm;
+  }
+
+  // Fills those of `found` (by counterpart, without self) that are missing and closer than
+  // horizon_m. Returns true if none is missing any more.
+  bool find_closest(const Configuration& q, double horizon_m,
+                    std::vector<std::optional<NearPair>>& found) {
+    std::vector<std::size_t> counterpart(bodies.groups.size());
+    std::size_t count = 0;
+    const PairGroup* before = nullptr;
+    for (std::size_t g = 0; g < bodies.groups.size(); ++g) {
+      const PairGroup& group = bodies.groups[g];
+      if (group.kind == PairGroup::Kind::self) continue;
+      count += goes_on(group, before) ? 0 : 1;
+      counterpart[g] = count - 1;
+      before = &group;
+    }
+    found.resize(count);
+    const std::vector<std::optional<NearPair>> known = found;
+    const auto is_missing = [&](const PairGroup& group) {
+      const auto g = static_cast<std::size_t>(&group - bodies.groups.data());
+      return group.kind != PairGroup::Kind::self && !known[counterpart[g]];
+    };
+    if (std::ranges::none_of(bodies.groups, is_missing)) return true;
+    placed.set_limits({horizon_m, 0.0, horizon_m});
+    find_candidates(q, is_missing);
+    for (const PairGroup& group : bodies.groups) {
+      if (!is_missing(group)) continue;
+      auto& own = found[counterpart[static_cast<std::size_t>(&group - bodies.groups.data())]];
+      if (const auto pair = closest(group, own ? own->clearance_m : horizon_m)) own = pair;
+    }
+    return std::ranges::all_of(found, [](const auto& pair) { return pair.has_value(); });
   }
 };
 
@@ -198,23 +231,21 @@ std::vector<Proximity> ClearanceQuery::closest_too_close(const Configuration& q)
 }
 
 std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, double horizon_m) {
+  // Near horizons first, because among thousands of objects most are far away.
+  constexpr double kNearer_m[] = {0.1, 0.4};
   const PairLimits limits = scratch_->placed.limits();
-  set_limits({horizon_m, 0.0, horizon_m});
-  using Kind = PairGroup::Kind;
-  scratch_->find_candidates(q, [](const PairGroup& group) { return group.kind != Kind::self; });
+  std::vector<std::optional<NearPair>> of_counterpart;
+  for (const double nearer_m : kNearer_m) {
+    if (nearer_m < horizon_m && scratch_->find_closest(q, nearer_m, of_counterpart)) break;
+  }
+  (void)scratch_->find_closest(q, horizon_m, of_counterpart);
+  set_limits(limits);
   std::vector<Proximity> found;
-  for (const PairGroup& group : scratch_->bodies.groups) {
-    if (group.kind == Kind::self) continue;
-    // Here, an arm's static bodies and its mount are one counterpart. The mount's group follows
-    // directly after the group of the other static bodies.
-    const bool goes_on = group.kind == Kind::mount && !found.empty() && !found.back().arm_b &&
-                         found.back().arm_a == group.arm;
-    const auto pair = scratch_->closest(group, goes_on ? found.back().clearance_m : horizon_m);
+  for (std::optional<NearPair>& pair : of_counterpart) {
     if (!pair) continue;
-    if (goes_on) found.pop_back();
+    pair->limit_m = horizon_m;
     found.push_back(describe(*pair));
   }
-  set_limits(limits);
   return found;
 }
 
