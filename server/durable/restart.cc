@@ -192,7 +192,7 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     executive.alert({Alert::Level::error, one.why});
     // Deletes the change from the store. The alert reports it once; the next session starts without
     // it.
-    keeper.store().change({.name = one.name}, [](bool) {});
+    keeper.store().change({{.name = one.name}}, [](bool) {});
   }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
