@@ -106,8 +106,8 @@ struct ExecutiveInput {
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
-               ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved, Alerted, Judged, Certified,
-               Planned, StartWritten>
+               ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved, Alerted, Judged,
+               Certified, Planned, StartWritten>
       what;
 };
 

@@ -110,8 +110,8 @@ Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {
     const auto [first, is_first] = index.emplace(given[i].name, i);
     if (is_first) continue;
     problems.push_back({ProblemKind::conflict, "name-taken", place + "/name",
-                        "object " + std::to_string(first->second) + " is named \"" +
-                            given[i].name + "\" already: give each object its own name",
+                        "object " + std::to_string(first->second) + " is named \"" + given[i].name +
+                            "\" already: give each object its own name",
                         given[i].name});
   }
   if (!problems.empty()) return failure(std::move(problems));
@@ -199,7 +199,8 @@ std::optional<Problem> LiveScene::object_in_arm(const PreparedEdit& prepared) co
   ClearanceQuery& query = *prepared.made->query;
   for (const NearPair& closer : query.near_pairs(measured_())) {
     const Proximity pair = query.describe(closer);
-    if (!pair.object_b || !std::ranges::binary_search(prepared.made->changed, pair.body_b)) continue;
+    if (!pair.object_b || !std::ranges::binary_search(prepared.made->changed, pair.body_b))
+      continue;
     std::array<char, 320> text{};
     std::snprintf(text.data(), text.size(),
                   "%s would be %.4f m from %s at its present position, limit %.4f m: move the arm "
@@ -229,9 +230,7 @@ Result<void> LiveScene::edit(SceneEdit edit) {
   return {};
 }
 
-Result<void> LiveScene::add(CollisionObject object) {
-  return edit(ObjectAdded{std::move(object)});
-}
+Result<void> LiveScene::add(CollisionObject object) { return edit(ObjectAdded{std::move(object)}); }
 Result<void> LiveScene::replace(CollisionObject object) {
   return edit(ObjectReplaced{std::move(object)});
 }

@@ -41,17 +41,16 @@ struct ObjectRemoved {
 struct ObjectsSet {
   std::shared_ptr<const std::vector<CollisionObject>> objects;
 };
-using SceneEdit =
-    std::variant<ObjectPut, ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet>;
+using SceneEdit = std::variant<ObjectPut, ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet>;
 
 // Largest number of objects that clients can bring a scene to, the cell file's included.
 inline constexpr std::size_t kObjectsMax = 5000;
 
-// What an edit did.
+// The result of an edit.
 struct SceneEdited {
   std::uint64_t version;
-  bool created;                       // the object is new
-  std::vector<std::string> removed;   // names
+  bool created;                      // the object is new
+  std::vector<std::string> removed;  // names
 };
 
 // An edit with the scene that it makes of another scene. LiveScene::apply() leaves here what it

@@ -101,8 +101,8 @@ class Publisher {
   TimePoint next_scene_{};
   static constexpr std::size_t kSmallScene = 100;                             // objects
   static constexpr Duration kForEachObject = std::chrono::microseconds(100);  // between two events
-  static constexpr std::size_t kShortQueue = 100;                          // jobs
-  static constexpr Duration kForEachJob = std::chrono::microseconds(100);  // between two lists
+  static constexpr std::size_t kShortQueue = 100;                             // jobs
+  static constexpr Duration kForEachJob = std::chrono::microseconds(100);     // between two lists
 };
 
 }  // namespace armloom

@@ -152,15 +152,14 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   void edit_scene(SceneEdit edit, ObjectsTo objects_to,
                   std::function<void(const Result<SceneEdited>&)> then) {
-    post([this, edit = std::make_shared<WaitingEdit>(
-                    WaitingEdit{std::move(edit), std::move(objects_to), std::move(then)})](
-             Executive&) {
+    post([this, edit = std::make_shared<WaitingEdit>(WaitingEdit{
+                    std::move(edit), std::move(objects_to), std::move(then)})](Executive&) {
       if (edits_.size() >= kEditsMax) {
-        edit->then(failure(Problem{
-            ProblemKind::unavailable, "too-many-edits", "",
-            std::to_string(kEditsMax) + " changes of the scene wait, the maximum: send them in one "
-                                        "PUT /scene, or wait for each answer",
-            static_cast<double>(kEditsMax)}));
+        edit->then(failure(Problem{ProblemKind::unavailable, "too-many-edits", "",
+                                   std::to_string(kEditsMax) +
+                                       " changes of the scene wait, the maximum: send them in one "
+                                       "PUT /scene, or wait for each answer",
+                                   static_cast<double>(kEditsMax)}));
         return true;
       }
       edits_.push_back(std::move(*edit));
@@ -309,7 +308,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   Worker drafter_;
   Worker scene_maker_;
   std::deque<WaitingEdit> edits_;  // the first is being prepared; the loop thread's
-  struct Open {  // asked for and not done; the loop thread's
+  struct Open {                    // asked for and not done; the loop thread's
     int considered = 0;
     int drawings = 0;
     int drafts = 0;

@@ -26,13 +26,11 @@ void get_scene(Call call) {
 // Edits the scene, then calls `then` on the server's thread.
 void edit(const ApiParts& parts, SceneEdit edit, RealTimeLoop::ObjectsTo objects_to,
           Answered then) {
-  parts.loop.edit_scene(
-      std::move(edit), std::move(objects_to),
-      [&parts, then = std::move(then)](const Result<SceneEdited>& edited) {
-        parts.post([then, edited = std::make_shared<const Result<SceneEdited>>(edited)] {
-          then(*edited);
-        });
-      });
+  parts.loop.edit_scene(std::move(edit), std::move(objects_to),
+                        [&parts, then = std::move(then)](const Result<SceneEdited>& edited) {
+                          parts.post([then, edited = std::make_shared<const Result<SceneEdited>>(
+                                                edited)] { then(*edited); });
+                        });
 }
 
 bool is_of_cell(const ApiParts& parts, const std::string& name) {
@@ -43,10 +41,10 @@ bool is_of_cell(const ApiParts& parts, const std::string& name) {
 void respond_when_stored(const ApiParts& parts, std::vector<StoredObject> objects,
                          const Respond& respond, Response response) {
   if (parts.keeper == nullptr) return respond(std::move(response));
-  parts.keeper->change(std::move(objects), [respond, response = std::move(response)](
-                                               std::optional<Refusal> refusal) {
-    respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
-  });
+  parts.keeper->change(std::move(objects),
+                       [respond, response = std::move(response)](std::optional<Refusal> refusal) {
+                         respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
+                       });
 }
 
 // ---- Single objects ----
@@ -193,10 +191,11 @@ std::vector<Route> scene_routes() {
        .id = "putScene",
        .tag = "scene",
        .summary = "Set all objects at once",
-       .text = "One change for thousands of objects, such as those of a camera: all or none. Objects "
-               "that clients had added and that are not in the body are removed. Objects of the cell "
-               "file stay, unless the body has an object of their name. 409 if an object would "
-               "overlap an arm, if a name is in use, or if `version` is not the scene's.",
+       .text =
+           "One change for thousands of objects, such as those of a camera: all or none. Objects "
+           "that clients had added and that are not in the body are removed. Objects of the cell "
+           "file stay, unless the body has an object of their name. 409 if an object would "
+           "overlap an arm, if a name is in use, or if `version` is not the scene's.",
        .parameters = {scene_if_match()},
        .reads = body(scene_request_format(),
                      {{"voxels", R"({"objects": [{"name": "v1", "box": [0.04, 0.04, 0.04], )"

@@ -50,8 +50,7 @@ class JobKeeper final : public StartLog {
   // reason why they are not on disk yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
   // Persists changes of scene objects, all or none. Calls `then` in the same way as amend().
-  void change(std::vector<StoredObject> objects,
-              std::function<void(std::optional<Refusal>)> then);
+  void change(std::vector<StoredObject> objects, std::function<void(std::optional<Refusal>)> then);
   // Calls `then` with nullopt when all earlier changes are on disk, or with the reason why they are
   // not on disk yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);

@@ -38,10 +38,10 @@ FormatPtr<ObjectDescription> make_object_format(Need name) {
               name,
               {}},
              &ObjectDescription::name, object_name_format()),
-      not_served<ObjectDescription>(
-          {"mesh", "unsupported",
-           "a mesh can be given in the cell file only; give a box, a cylinder or a sphere. PUT /scene "
-           "keeps the meshes of the cell file if they are left out"}),
+      not_served<ObjectDescription>({"mesh", "unsupported",
+                                     "a mesh can be given in the cell file only; give a box, a "
+                                     "cylinder or a sphere. PUT /scene "
+                                     "keeps the meshes of the cell file if they are left out"}),
       unless("mesh", inlined(&ObjectDescription::shape, primitive_part())),
       inlined(&ObjectDescription::X_WO, pose_part()),
   });
@@ -82,18 +82,19 @@ FormatPtr<ObjectDescription> named_object_request_format() {
 
 FormatPtr<SceneRequest> scene_request_format() {
   using Request = SceneRequest;
-  static const auto format = named(
-      "SceneRequest",
-      "All objects of the scene, as GET /scene returns them. Objects of the cell file that are left "
-      "out stay as they are; all others are removed.",
-      object<Request>({
-          required("objects", &Request::objects,
-                   list(object_request_format(), {.most = kObjectsMax, .noun = "objects"}),
-                   "The objects; a name of an object of the cell file replaces that object"),
-          field("version", &Request::version, count(),
-                "Version that the scene must have, as in GET /scene; 409 if it has another "
-                "version. Default: any version"),
-      }));
+  static const auto format =
+      named("SceneRequest",
+            "All objects of the scene, as GET /scene returns them. Objects of the cell file that "
+            "are left "
+            "out stay as they are; all others are removed.",
+            object<Request>({
+                required("objects", &Request::objects,
+                         list(object_request_format(), {.most = kObjectsMax, .noun = "objects"}),
+                         "The objects; a name of an object of the cell file replaces that object"),
+                field("version", &Request::version, count(),
+                      "Version that the scene must have, as in GET /scene; 409 if it has another "
+                      "version. Default: any version"),
+            }));
   return format;
 }
 

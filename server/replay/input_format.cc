@@ -130,6 +130,7 @@ PartPtr<In::ObjectsSet> objects_part() {
   const auto listed = object<ListedObject>({object_part<ListedObject>()});
   const auto wrapped = [](const std::shared_ptr<const std::vector<CollisionObject>>& objects) {
     std::vector<ListedObject> all;
+    if (objects == nullptr) return all;  // not read yet
     for (const CollisionObject& object : *objects) all.push_back({object});
     return all;
   };

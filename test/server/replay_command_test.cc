@@ -56,7 +56,10 @@ class ReplayCommand : public test::CommandFixture {
     call("PUT", "/scene",
          {{"objects",
            {{{"name", "crate"}, {"box", {0.1, 0.1, 0.1}}, {"xyz", {0, 1.6, 0.1}}},
-            {{"name", "rod"}, {"cylinder", {0.02, 0.4}}, {"rpy", {0.1, 0.2, 0.3}}, {"xyz", {0, 2, 0.1}}}}}});
+            {{"name", "rod"},
+             {"cylinder", {0.02, 0.4}},
+             {"rpy", {0.1, 0.2, 0.3}},
+             {"xyz", {0, 2, 0.1}}}}}});
     call("POST", "/stop", nullptr);
     call("POST", "/resume", nullptr);
     call("PUT", "/sim/speed", {{"speed", 20}});

@@ -120,8 +120,9 @@ class Checker {
     collect(pairs, [&](const filter::Hit& hit) {
       return set.pairs.narrow[static_cast<std::size_t>(hit.pair)].pair;
     });
-    collect(kernel.near_boxes(a, set.pairs.all_boxes(), 0xFF, hits_.data()),
-            [&](const filter::Hit& hit) { return set.pairs.narrow_of(hit.pair, hit.capsule).pair; });
+    collect(
+        kernel.near_boxes(a, set.pairs.all_boxes(), 0xFF, hits_.data()),
+        [&](const filter::Hit& hit) { return set.pairs.narrow_of(hit.pair, hit.capsule).pair; });
     for (const auto& [pair, distances] : least_) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) hold(pair, distances[lane], lane);
     }

@@ -164,8 +164,7 @@ std::vector<filter::StaticBox> boxes_for(const RandomLinkage& arm, std::mt19937_
 void expect_skips_only_far_boxes(const Comparison& of, const Results& results) {
   auto kept = results.box_hits.begin();
   for (const filter::Hit& hit : results.unskipped_box_hits) {
-    if (kept != results.box_hits.end() && kept->pair == hit.pair &&
-        kept->capsule == hit.capsule) {
+    if (kept != results.box_hits.end() && kept->pair == hit.pair && kept->capsule == hit.capsule) {
       EXPECT_EQ(kept->lanes, hit.lanes);
       ++kept;
       continue;

@@ -165,8 +165,8 @@ struct Boxes {
 // A pair that is undecided in some lanes. distance: lower bound at the configuration. motion_bound:
 // largest decrease of the distance by motion.
 struct Hit {
-  int pair;     // index in Pairs::all or Boxes::all
-  int capsule;  // near_boxes only: index in Boxes::capsules
+  int pair;        // index in Pairs::all or Boxes::all
+  int capsule;     // near_boxes only: index in Boxes::capsules
   unsigned lanes;  // bit by lane
   float distance[kLanes];
   float motion_bound[kLanes];

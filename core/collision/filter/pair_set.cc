@@ -58,10 +58,9 @@ void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
 PairId pair_of(const PlanningScene::Bodies& bodies, const PairGroup& group, const BodyPair& pair) {
   const auto key = [](const BodyPair& p) { return std::pair(p.a, p.b); };
   const auto begin = bodies.pairs.begin();
-  const auto found =
-      std::ranges::lower_bound(begin + static_cast<std::ptrdiff_t>(group.pairs_begin),
-                               begin + static_cast<std::ptrdiff_t>(group.pairs_end), key(pair), {},
-                               key);
+  const auto found = std::ranges::lower_bound(
+      begin + static_cast<std::ptrdiff_t>(group.pairs_begin),
+      begin + static_cast<std::ptrdiff_t>(group.pairs_end), key(pair), {}, key);
   return PairId{static_cast<std::uint32_t>(found - begin)};
 }
 
@@ -90,8 +89,7 @@ filter::StaticBox static_box(const ConvexShape& box, const Eigen::Isometry3d& X_
 // Adds the static boxes of a group.
 class AddBoxes {
  public:
-  AddBoxes(PairSet& set, const ArmKinematics& a, const ArmKinematics& b)
-      : set_(set), a_(a), b_(b) {
+  AddBoxes(PairSet& set, const ArmKinematics& a, const ArmKinematics& b) : set_(set), a_(a), b_(b) {
     for (std::size_t body = 0; body < a.bodies().size(); ++body) add_boxed(set, a, body);
     all_ = static_cast<int>(set.boxed.size());
   }
@@ -208,9 +206,8 @@ void PairSet::set_each_limit(const std::function<double(const NarrowPair&)>& lim
     for (int c = whole.begin, end = c; c < whole.end; c = end) {
       const double limit = limit_m(narrow_of(static_cast<int>(i), c));
       for (end = c + 1; end < whole.end; ++end) {
-        const bool is_same_body =
-            body_of_boxed[static_cast<std::size_t>(end)].body ==
-            body_of_boxed[static_cast<std::size_t>(end) - 1].body;
+        const bool is_same_body = body_of_boxed[static_cast<std::size_t>(end)].body ==
+                                  body_of_boxed[static_cast<std::size_t>(end) - 1].body;
         if (!is_same_body && limit_m(narrow_of(static_cast<int>(i), end)) != limit) break;
       }
       std::size_t entry = i;

@@ -42,10 +42,10 @@ struct PairSet {
   };
   std::vector<BoxedBody> body_of_boxed;  // by entry of `boxed`
   std::vector<std::size_t> body_of_box;  // by entry of `boxes`, as in BoxedBody::body
-  std::vector<filter::Group> groups;  // `pairs`, grouped by a capsule of one side
-  bool groups_of_second = false;      // that side is the second
-  std::vector<filter::Group> others;  // see filter::Groups::others
-  float limit_up = 0.0F;              // largest limit of `pairs`
+  std::vector<filter::Group> groups;     // `pairs`, grouped by a capsule of one side
+  bool groups_of_second = false;         // that side is the second
+  std::vector<filter::Group> others;     // see filter::Groups::others
+  float limit_up = 0.0F;                 // largest limit of `pairs`
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
   // Returns the largest number of hits that the filter can find.

@@ -41,9 +41,9 @@ CollisionBody::BoundingSphere bound(const std::vector<ConvexShape>& shapes) {
 }
 
 void add_body(PlanningScene::Bodies& scene, CollisionBody body) {
-  body.has_pieces = std::any_of(at(scene.shapes, body.shapes_begin),
-                                at(scene.shapes, body.shapes_end),
-                                [](const ConvexShape& shape) { return shape.is_piece; });
+  body.has_pieces =
+      std::any_of(at(scene.shapes, body.shapes_begin), at(scene.shapes, body.shapes_end),
+                  [](const ConvexShape& shape) { return shape.is_piece; });
   body.lone_box = body.shapes_end == body.shapes_begin + 1 &&
                   scene.shapes[body.shapes_begin].kind == ConvexShapeKind::box;
   if (body.arm) scene.bodies_of_arm[body.arm->index()].push_back(scene.bodies.size());
@@ -178,9 +178,24 @@ void set_reach(PlanningScene::Bodies& scene) {
   }
 }
 
+// Returns a capsule around a box whose axis is a side of the box, without the search for a smaller
+// one: boxes of a scene are compared as boxes, and a camera sends thousands of them.
+LinkCapsules around_box(const ConvexShape& box) {
+  const Eigen::Matrix3d R = box.X_PS.linear();
+  const LinkCapsule capsule =
+      fit_capsule(extreme_balls(box), {R.col(0), R.col(1), R.col(2)}, false);
+  double depth_m = box.radius_m;  // least distance of the axis from the box's surface
+  for (const Eigen::Vector3d& p_P : {capsule.p_PA, capsule.p_PB}) {
+    const Eigen::Vector3d p = box.X_PS.inverse(Eigen::Isometry) * p_P;
+    depth_m = std::min(depth_m, (box.half_size_m - p.cwiseAbs()).minCoeff());
+  }
+  return {{capsule}, std::max(0.0, capsule.radius_m - depth_m)};
+}
+
 std::shared_ptr<const FittedShape> fit(const Shape& shape) {
   FittedShape fit{shape, make_convex_shapes({{shape, Eigen::Isometry3d::Identity()}}), {}, {}};
-  fit.fitted = fit_capsules(fit.convex);
+  fit.fitted = std::holds_alternative<Box>(shape) ? around_box(fit.convex.front())
+                                                  : fit_capsules(fit.convex);
   fit.sphere = bound(fit.convex);
   return std::make_shared<const FittedShape>(std::move(fit));
 }

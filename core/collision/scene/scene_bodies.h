@@ -48,7 +48,8 @@ struct CollisionBody {
   bool has_pieces = false;  // some shapes are pieces of a closed mesh
   bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
   LinkCapsules fitted;      // capsules around all shapes, in P
-  // Objects only: hash of the name, the shape and the pose; and the links that may touch the object.
+  // Objects only: hash of the name, the shape and the pose; and the links that may touch the
+  // object.
   Fingerprint content = 0;
   std::vector<LinkId> touched_by = {};
 
