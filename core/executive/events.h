@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -163,7 +164,9 @@ struct QueueView {
 // The objects of the planning scene; `version` grows with every change.
 struct SceneView {
   std::uint64_t version = 0;
-  std::vector<CollisionObject> objects;
+  std::shared_ptr<const std::vector<CollisionObject>> shared = {};  // not null if published
+
+  [[nodiscard]] const std::vector<CollisionObject>& objects() const { return *shared; }
 };
 
 struct MonitorEvent {

@@ -32,7 +32,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
-              .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
+              .changed = [this](ClearanceQuery& query) { scene_has_changed(query); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
@@ -196,6 +196,7 @@ void Executive::Impl::tick(TimePoint now) {
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
   publisher_.tell_queue(now);
+  publisher_.tell_scene(now);
   publisher_.tell_arms(now);
   publisher_.tell_tick(now);
   const auto is_moving = [&](ArmId arm) { return motions.moving(arm); };
@@ -293,13 +294,13 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
   publisher_.tell_job(publisher_.view(job), clock_.now);
 }
 
-void Executive::Impl::scene_has_changed(ClearanceQuery query) {
+void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   const SceneFingerprint& now = scene_.scene()->fingerprint();
   const bool is_within_reach = now != execution_.gate().scene();
   const std::vector<ArmId> arms = arms_in_question(execution_.gate().scene(), now);
   execution_.gate().look_at(now);
-  watch_.follow(std::move(query));
-  publisher_.tell_scene(clock_.now);
+  watch_.follow(query);
+  publisher_.scene_has_changed(clock_.now);
   if (is_within_reach) step(SceneChanged{arms});
 }
 

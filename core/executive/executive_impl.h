@@ -102,7 +102,7 @@ class Executive::Impl {
   void refused(JobId job, const GuardRefusal& refusal);
   void forget_rolled_back();
   void watch();
-  void scene_has_changed(ClearanceQuery query);
+  void scene_has_changed(ClearanceQuery& query);
 
   // Set when the shutdown has begun.
   struct WindDown {

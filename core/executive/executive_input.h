@@ -72,15 +72,10 @@ struct ExecutiveInput {
     std::string cause;
     Executive::Waiting waiting;
   };
-  struct ObjectAdded {
-    CollisionObject object;
-  };
-  struct ObjectReplaced {
-    CollisionObject object;
-  };
-  struct ObjectRemoved {
-    std::string name;
-  };
+  using ObjectAdded = armloom::ObjectAdded;
+  using ObjectReplaced = armloom::ObjectReplaced;
+  using ObjectRemoved = armloom::ObjectRemoved;
+  using ObjectsSet = armloom::ObjectsSet;
   struct Injected {
     FaultRequest fault;
   };
@@ -111,8 +106,8 @@ struct ExecutiveInput {
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
-               ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Certified,
-               Planned, StartWritten>
+               ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved, Alerted, Judged,
+               Certified, Planned, StartWritten>
       what;
 };
 

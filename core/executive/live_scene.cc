@@ -1,8 +1,12 @@
 #include "core/executive/live_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "core/executive/executive_input.h"
@@ -11,19 +15,24 @@
 namespace armloom {
 namespace {
 
+using Objects = std::vector<CollisionObject>;
+
 auto named(const std::string& name) {
   return [&name](const CollisionObject& object) { return object.name == name; };
 }
 
 // Conflicts and allowed pairs name links and objects alike: a name means one body.
-std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell) {
+std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell,
+                                     const std::string& place) {
   const auto has_name = [&name](const auto& part) { return part.name == name; };
   const char* whose = std::ranges::any_of(cell.links, has_name)    ? "link"
                       : std::ranges::any_of(cell.robots, has_name) ? "robot"
                                                                    : nullptr;
   if (whose == nullptr) return std::nullopt;
-  return Problem{ProblemKind::conflict, "name-taken", "/name",
-                 "a " + std::string(whose) + " is named \"" + name + "\" already", name};
+  return Problem{ProblemKind::conflict, "name-taken", place + "/name",
+                 "a " + std::string(whose) + " is named \"" + name +
+                     "\" already: give the object another name",
+                 name};
 }
 
 Problem no_object(const std::string& name) {
@@ -31,58 +40,205 @@ Problem no_object(const std::string& name) {
                  "no object is named \"" + name + "\"", name};
 }
 
+Problem scene_full(std::size_t count) {
+  return Problem{ProblemKind::unavailable, "scene-full", "",
+                 "the scene would hold " + std::to_string(count) + " objects, the maximum is " +
+                     std::to_string(kObjectsMax) +
+                     ": remove some first, or send fewer and larger boxes",
+                 static_cast<double>(count)};
+}
+
+// The objects after an edit, and what changes.
+struct Outline {
+  Objects objects;
+  std::vector<std::string> changed = {};
+  std::vector<std::string> removed = {};
+};
+
+Result<Outline> outline(const ObjectAdded& edit, const PlanningScene& base) {
+  const std::string& name = edit.object.name;
+  if (auto taken = taken_in_cell(name, base.cell(), "")) return failure(std::move(*taken));
+  if (std::ranges::any_of(base.objects(), named(name))) {
+    return failure(Problem{ProblemKind::conflict, "name-taken", "/name",
+                           "an object is named \"" + name +
+                               "\" already: replace it with PUT /scene/objects/{name}, or give "
+                               "another name",
+                           name});
+  }
+  Outline after{base.objects(), {name}};
+  after.objects.push_back(edit.object);
+  return after;
+}
+
+Result<Outline> outline(const ObjectReplaced& edit, const PlanningScene& base) {
+  Outline after{base.objects(), {edit.object.name}};
+  const auto old = std::ranges::find_if(after.objects, named(edit.object.name));
+  if (old == after.objects.end()) return failure(no_object(edit.object.name));
+  *old = edit.object;
+  return after;
+}
+
+Result<Outline> outline(const ObjectRemoved& edit, const PlanningScene& base) {
+  Outline after{base.objects(), {}, {edit.name}};
+  if (std::erase_if(after.objects, named(edit.name)) == 0) return failure(no_object(edit.name));
+  return after;
+}
+
+bool is_same(const CollisionObject& a, const CollisionObject& b) {
+  if (a.shape.index() != b.shape.index() || a.X_WO.matrix() != b.X_WO.matrix()) return false;
+  if (const auto* box = std::get_if<Box>(&a.shape)) {
+    return box->size_m == std::get<Box>(b.shape).size_m;
+  }
+  if (const auto* cylinder = std::get_if<Cylinder>(&a.shape)) {
+    const Cylinder& other = std::get<Cylinder>(b.shape);
+    return cylinder->radius_m == other.radius_m && cylinder->length_m == other.length_m;
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&a.shape)) {
+    return sphere->radius_m == std::get<Sphere>(b.shape).radius_m;
+  }
+  return std::get<Mesh>(a.shape).data == std::get<Mesh>(b.shape).data;
+}
+
+Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {
+  const Objects& given = *edit.objects;
+  Problems problems;
+  std::unordered_map<std::string_view, std::size_t> index;  // in `given`
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::string place = "/objects/" + std::to_string(i);
+    auto taken = taken_in_cell(given[i].name, base.cell(), place);
+    if (taken) problems.push_back(std::move(*taken));
+    const auto [first, is_first] = index.emplace(given[i].name, i);
+    if (is_first) continue;
+    problems.push_back({ProblemKind::conflict, "name-taken", place + "/name",
+                        "object " + std::to_string(first->second) + " is named \"" + given[i].name +
+                            "\" already: give each object its own name",
+                        given[i].name});
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+
+  std::unordered_set<std::string_view> of_cell;
+  for (const CollisionObject& object : base.cell().objects) of_cell.insert(object.name);
+  std::vector<bool> is_placed(given.size(), false);
+  Outline after;
+  for (const CollisionObject& object : base.objects()) {
+    const auto by = index.find(object.name);
+    if (by == index.end()) {
+      of_cell.contains(object.name) ? after.objects.push_back(object)
+                                    : after.removed.push_back(object.name);
+      continue;
+    }
+    const CollisionObject& next = given[by->second];
+    is_placed[by->second] = true;
+    if (!is_same(object, next)) after.changed.push_back(next.name);
+    after.objects.push_back(next);
+  }
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (is_placed[i]) continue;
+    after.changed.push_back(given[i].name);
+    after.objects.push_back(given[i]);
+  }
+  std::ranges::sort(after.changed);
+  return after;
+}
+
+Result<Outline> outline(const ObjectPut&, const PlanningScene&) {
+  throw std::logic_error("ObjectPut: prepare() has made it ObjectAdded or ObjectReplaced");
+}
+
+Result<PreparedEdit::Made> make(const SceneEdit& edit, const PlanningScene& base) {
+  auto after = std::visit([&](const auto& kind) { return outline(kind, base); }, edit);
+  if (!after) return failure(std::move(after.error()));
+  const std::size_t count = after->objects.size();
+  if (count > kObjectsMax && count > base.objects().size()) return failure(scene_full(count));
+  auto scene = base.with_objects(std::move(after->objects));
+  if (!scene) return failure(std::move(scene.error()));
+  auto query = std::make_unique<ClearanceQuery>(StateWatch::query_of(*scene));
+  return PreparedEdit::Made{std::move(*scene), std::move(query), std::move(after->changed),
+                            std::move(after->removed)};
+}
+
+ExecutiveInput input_of(const SceneEdit& edit) {
+  return std::visit(
+      [](const auto& kind) -> ExecutiveInput {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ObjectPut>) {
+          throw std::logic_error("ObjectPut is not logged");
+        } else {
+          return {kind};
+        }
+      },
+      edit);
+}
+
+// Returns the place of the object in the client's request.
+std::string place_of(const SceneEdit& edit, const std::string& name) {
+  const auto* set = std::get_if<ObjectsSet>(&edit);
+  if (set == nullptr) return "";
+  const auto found = std::ranges::find_if(*set->objects, named(name));
+  return "/objects/" + std::to_string(found - set->objects->begin());
+}
+
 }  // namespace
 
-Result<void> LiveScene::add(CollisionObject object) {
-  told_.asked({ExecutiveInput::ObjectAdded{object}});
-  if (auto taken = taken_in_cell(object.name, now_.scene->cell()))
-    return failure(std::move(*taken));
-  std::vector<CollisionObject> all = objects();
-  if (std::ranges::any_of(all, named(object.name))) {
-    return failure(Problem{ProblemKind::conflict, "name-taken", "/name",
-                           "an object is named \"" + object.name + "\" already", object.name});
+PreparedEdit prepare(SceneEdit edit, const PlanningScenePtr& base) {
+  if (auto* put = std::get_if<ObjectPut>(&edit)) {
+    CollisionObject object = std::move(put->object);
+    if (std::ranges::any_of(base->objects(), named(object.name))) {
+      edit = ObjectReplaced{std::move(object)};
+    } else {
+      edit = ObjectAdded{std::move(object)};
+    }
   }
-  all.push_back(std::move(object));
-  return change(std::move(all));
-}
-
-Result<void> LiveScene::replace(CollisionObject object) {
-  told_.asked({ExecutiveInput::ObjectReplaced{object}});
-  std::vector<CollisionObject> all = objects();
-  const auto old = std::ranges::find_if(all, named(object.name));
-  if (old == all.end()) return failure(no_object(object.name));
-  *old = std::move(object);
-  return change(std::move(all));
-}
-
-Result<void> LiveScene::remove(const std::string& name) {
-  told_.asked({ExecutiveInput::ObjectRemoved{name}});
-  std::vector<CollisionObject> all = objects();
-  if (std::erase_if(all, named(name)) == 0) return failure(no_object(name));
-  return change(std::move(all));
+  auto made = make(edit, *base);
+  return {base, std::move(edit), std::move(made)};
 }
 
 // An object may not be set where an arm stands: that is a mistake, or an accident that the monitor
 // would answer with a stop.
-Result<void> LiveScene::change(std::vector<CollisionObject> objects) {
-  auto scene = now_.scene->with_objects(std::move(objects));
-  if (!scene) return failure(std::move(scene.error()));
-  ClearanceQuery query = StateWatch::query_of(*scene);
+std::optional<Problem> LiveScene::object_in_arm(const PreparedEdit& prepared) const {
+  if (prepared.made->changed.empty()) return std::nullopt;
+  ClearanceQuery& query = *prepared.made->query;
   for (const NearPair& closer : query.near_pairs(measured_())) {
     const Proximity pair = query.describe(closer);
-    if (!pair.object_b) continue;
+    if (!pair.object_b || !std::ranges::binary_search(prepared.made->changed, pair.body_b))
+      continue;
     char figures[96];
     std::snprintf(figures, sizeof figures, pair.clearance_m < 0.0 ? "overlap " : "be %.4f m from ",
                   pair.clearance_m);
     std::string text = pair.body_b + " would " + figures + pair.body_a + " at its present position";
     if (pair.clearance_m < 0.0) text += " by " + in_mm(pair.clearance_m);
     std::snprintf(figures, sizeof figures, ", limit %.4f m", pair.limit_m);
-    return failure(
-        Problem{ProblemKind::conflict, "object-in-arm", "", text + figures, pair.clearance_m});
+    return Problem{ProblemKind::conflict, "object-in-arm", place_of(prepared.edit, pair.body_b),
+                   text + figures + ": move the arm first, or leave the object out",
+                   pair.clearance_m};
   }
-  now_ = {std::move(*scene), now_.version + 1};
-  told_.changed(std::move(query));
+  return std::nullopt;
+}
+
+Result<SceneEdited> LiveScene::apply(PreparedEdit& prepared) {
+  if (prepared.base != now_.scene) prepared = prepare(std::move(prepared.edit), now_.scene);
+  told_.asked(input_of(prepared.edit));
+  if (!prepared.made) return failure(prepared.made.error());
+  if (auto problem = object_in_arm(prepared)) return failure(std::move(*problem));
+  std::swap(now_.scene, prepared.made->scene);
+  ++now_.version;
+  told_.changed(*prepared.made->query);
+  return SceneEdited{now_.version, std::holds_alternative<ObjectAdded>(prepared.edit),
+                     std::move(prepared.made->removed)};
+}
+
+Result<void> LiveScene::edit(SceneEdit edit) {
+  PreparedEdit prepared = prepare(std::move(edit), now_.scene);
+  if (auto done = apply(prepared); !done) return failure(std::move(done.error()));
   return {};
+}
+
+Result<void> LiveScene::add(CollisionObject object) { return edit(ObjectAdded{std::move(object)}); }
+Result<void> LiveScene::replace(CollisionObject object) {
+  return edit(ObjectReplaced{std::move(object)});
+}
+Result<void> LiveScene::remove(const std::string& name) { return edit(ObjectRemoved{name}); }
+Result<void> LiveScene::set(std::vector<CollisionObject> objects) {
+  return edit(ObjectsSet{std::make_shared<const Objects>(std::move(objects))});
 }
 
 }  // namespace armloom

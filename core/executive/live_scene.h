@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/problem.h"
@@ -19,7 +23,68 @@ struct VersionedScene {
   std::uint64_t version = 1;
 };
 
+// Edits of the scene: changes as clients request them.
+struct ObjectAdded {
+  CollisionObject object;
+};
+struct ObjectReplaced {
+  CollisionObject object;
+};
+struct ObjectPut {  // becomes ObjectAdded or ObjectReplaced
+  CollisionObject object;
+};
+struct ObjectRemoved {
+  std::string name;
+};
+// Sets all objects at once. An object with the name of an object of the cell file replaces it.
+// Objects of the cell file that are not named stay as they are. All other objects are removed.
+struct ObjectsSet {
+  std::shared_ptr<const std::vector<CollisionObject>> objects;
+};
+using SceneEdit = std::variant<ObjectPut, ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet>;
+
+// Largest number of objects that clients can bring a scene to, the cell file's included.
+inline constexpr std::size_t kObjectsMax = 5000;
+
+// The result of an edit.
+struct SceneEdited {
+  std::uint64_t version;
+  bool created;                      // the object is new
+  std::vector<std::string> removed;  // names
+};
+
+// An edit with the scene that it makes of another scene. LiveScene::apply() leaves here what it
+// replaced, so that the caller frees it where time permits.
+struct PreparedEdit {
+  PlanningScenePtr base;
+  SceneEdit edit;  // not ObjectPut
+  struct Made {
+    PlanningScenePtr scene;
+    std::unique_ptr<ClearanceQuery> query;  // the monitor's
+    // Names of the objects that are new or changed, ascending.
+    std::vector<std::string> changed;
+    std::vector<std::string> removed;
+  };
+  Result<Made> made;
+};
+// Makes the scene: fits the shapes that `base` does not have, and lists all pairs. Costs
+// milliseconds, and about a microsecond for each object of the scene. Pure; on any thread. Problems
+// in `made`:
+// - a name that is in use (of an object, a link or a robot), unknown, or given twice
+// - more than kObjectsMax objects, if the edit adds some
+[[nodiscard]] PreparedEdit prepare(SceneEdit edit, const PlanningScenePtr& base);
+
 // The present planning scene, whose objects clients can change. Used on the strand.
+//
+// An edit takes effect in one step, when apply() swaps the scene. Until then, everything is checked
+// and granted against the scene before: while a worker prepares the edit, its client has no answer.
+// From then on,
+// - no authority is granted under certificates that lack a present object (core/guard),
+// - the monitor watches the new scene,
+// - motions under way are checked again if a new or changed object is within their arm's reach, and
+//   waiting jobs are all checked again.
+// So when a client has the answer, nothing more starts or goes on unchecked. A replay repeats the
+// edit at the swap; how long its preparation took does not matter.
 class LiveScene {
  public:
   // Returns the present measured positions.
@@ -27,8 +92,9 @@ class LiveScene {
   struct Told {
     // Called with each request of a client, also an invalid one.
     std::function<void(const ExecutiveInput&)> asked;
-    // Called after a change, with the monitor's query in the new scene.
-    std::function<void(ClearanceQuery)> changed;
+    // Called after a change, with the monitor's query in the new scene. Swaps it with the query
+    // before.
+    std::function<void(ClearanceQuery&)> changed;
   };
   LiveScene(PlanningScenePtr scene, Measured measured, Told told)
       : now_{std::move(scene)}, measured_(std::move(measured)), told_(std::move(told)) {}
@@ -40,15 +106,20 @@ class LiveScene {
     return now_.scene->objects();
   }
 
-  // Change the objects. Every motion under way and every waiting job is then checked again.
-  // Problems: a name that is in use (of an object, a link or a robot) or unknown; a shape that is
-  // closer to the measured position of an arm than the monitor's stop_clearance.
+  // Swaps the scene. Prepares the edit again if the scene has changed since. Problems: those of
+  // prepare(); a new or changed object that is closer to the measured position of an arm than the
+  // monitor's stop_clearance. The scene then stays as it was.
+  [[nodiscard]] Result<SceneEdited> apply(PreparedEdit& prepared);
+
+  // Prepare and apply an edit at once.
   [[nodiscard]] Result<void> add(CollisionObject object);
   [[nodiscard]] Result<void> replace(CollisionObject object);
   [[nodiscard]] Result<void> remove(const std::string& name);
+  [[nodiscard]] Result<void> set(std::vector<CollisionObject> objects);
 
  private:
-  [[nodiscard]] Result<void> change(std::vector<CollisionObject> objects);
+  [[nodiscard]] Result<void> edit(SceneEdit edit);
+  [[nodiscard]] std::optional<Problem> object_in_arm(const PreparedEdit& prepared) const;
 
   VersionedScene now_;
   Measured measured_;

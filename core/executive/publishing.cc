@@ -24,9 +24,24 @@ void Publisher::tell(Body body, TimePoint now) {
   observer_.on_event(Event{++seq_, now, std::move(body)});
 }
 
-void Publisher::tell_scene(TimePoint now) {
+void Publisher::scene_has_changed(TimePoint now) {
   publish_scene();
-  tell(SceneView{shown_.scene.version(), shown_.scene.objects()}, now);
+  scene_is_old_ = true;
+  tell_scene(now);
+}
+
+void Publisher::tell_scene(TimePoint now) {
+  if (!scene_is_old_ || now < next_scene_) return;
+  scene_is_old_ = false;
+  const std::size_t objects = shown_.scene.objects().size();
+  next_scene_ =
+      objects < kSmallScene ? now : now + static_cast<Duration::rep>(objects) * kForEachObject;
+  tell(scene(), now);
+}
+
+SceneView Publisher::scene() const {
+  const PlanningScenePtr& scene = shown_.scene.scene();
+  return {shown_.scene.version(), {scene, &scene->objects()}};
 }
 
 void Publisher::tell_job(JobView view, TimePoint now) {
@@ -172,8 +187,7 @@ void Publisher::publish(TimePoint now) {
 }
 
 void Publisher::publish_scene() {
-  board_->publish_scene(
-      std::make_shared<const SceneView>(SceneView{shown_.scene.version(), shown_.scene.objects()}));
+  board_->publish_scene(std::make_shared<const SceneView>(scene()));
 }
 
 void Publisher::forget(JobId job, const std::string& key) {

@@ -38,6 +38,9 @@ class Publisher {
   using Body =
       std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
+  // Publish the scene: on the board at once. Events of large scenes are published less often, so
+  // that one event may cover several changes.
+  void scene_has_changed(TimePoint now);
   void tell_scene(TimePoint now);
   // Publishes the job, and an alert if it failed or expired.
   void tell_job(JobView view, TimePoint now);
@@ -49,7 +52,7 @@ class Publisher {
   // change of "all arms are stopped" always at once.
   void queue_may_have_changed(TimePoint now);
   void tell_queue(TimePoint now);
-  [[nodiscard]] bool is_behind() const { return queue_is_old_; }
+  [[nodiscard]] bool is_behind() const { return queue_is_old_ || scene_is_old_; }
   void tell_tick(TimePoint now);
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
@@ -68,6 +71,7 @@ class Publisher {
   void look_at_arms();
   void publish(TimePoint now);
   void publish_scene();
+  [[nodiscard]] SceneView scene() const;
   [[nodiscard]] const QueueView& queue();
   void tell_stopped(TimePoint now);
   void tell_queue(QueueView queue, TimePoint now);
@@ -93,8 +97,12 @@ class Publisher {
   QueueView told_queue_;
   bool queue_is_old_ = false;
   TimePoint next_queue_{};
-  static constexpr std::size_t kShortQueue = 100;                          // jobs
-  static constexpr Duration kForEachJob = std::chrono::microseconds(100);  // between two lists
+  bool scene_is_old_ = false;
+  TimePoint next_scene_{};
+  static constexpr std::size_t kSmallScene = 100;                             // objects
+  static constexpr Duration kForEachObject = std::chrono::microseconds(100);  // between two events
+  static constexpr std::size_t kShortQueue = 100;                             // jobs
+  static constexpr Duration kForEachJob = std::chrono::microseconds(100);     // between two lists
 };
 
 }  // namespace armloom

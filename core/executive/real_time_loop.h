@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/arm/arm_controller.h"
 #include "core/executive/executive.h"
@@ -30,6 +32,13 @@ class RealTimeLoop {
   // Runs `command` before all commands that are not urgent, in the order posted. For stops,
   // resumes, and answers that jobs wait for.
   void post_urgent(std::function<void(Executive&)> command);
+  // Changes the scene. A worker thread prepares the edits one after the other, in the order posted;
+  // the strand only swaps the scene (LiveScene). `then` is called on the strand. Problems: those of
+  // LiveScene::apply(); that of `objects_to`, which is called with the scene's version just before
+  // the swap and may be null; unavailable: too many edits wait.
+  using ObjectsTo = std::function<std::optional<Problem>(std::uint64_t version)>;
+  void edit_scene(SceneEdit edit, ObjectsTo objects_to,
+                  std::function<void(const Result<SceneEdited>&)> then);
   [[nodiscard]] const StatusBoard& board() const;
   [[nodiscard]] double speed() const;
   void set_speed(double speed);  // > 0; from the next control cycle on

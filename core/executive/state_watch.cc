@@ -23,8 +23,8 @@ ClearanceQuery StateWatch::query_of(const PlanningScenePtr& scene) {
 StateWatch::StateWatch(const PlanningScenePtr& scene)
     : period_(from_seconds(1.0 / scene->cell().monitor.rate_hz)), query_(query_of(scene)) {}
 
-void StateWatch::follow(ClearanceQuery query) {
-  query_ = std::move(query);
+void StateWatch::follow(ClearanceQuery& query) {
+  std::swap(query_, query);
   seen_.resize(0);
 }
 

@@ -15,8 +15,9 @@ class StateWatch {
 
   explicit StateWatch(const PlanningScenePtr& scene);
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
-  // Call when the scene has changed: the next check then runs even if no arm has moved.
-  void follow(ClearanceQuery query);
+  // Call when the scene has changed: the next check then runs even if no arm has moved. Swaps the
+  // query with the present one.
+  void follow(ClearanceQuery& query);
 
   [[nodiscard]] bool is_due(TimePoint now);
   // Checks `measured`, and returns true. Does nothing and returns false if `measured` has not

@@ -1,98 +1,176 @@
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "core/executive/status_board.h"
+#include "server/api/job_answers.h"
 #include "server/api/route.h"
+#include "server/http/entity_tag.h"
 #include "server/messages/scene.h"
 
 namespace armloom {
 namespace {
 
-constexpr std::size_t kObjectsMax = 1000;  // including those of the cell file
+using Answered = std::function<void(const Result<SceneEdited>&)>;
 
-struct Changed {
-  std::uint64_t version;
-  bool created;
-};
-
-Result<Changed> add(Executive& executive, const CollisionObject& object) {
-  if (executive.scene().objects().size() >= kObjectsMax) {
-    return failure(Problem{ProblemKind::unavailable, "scene-full", "",
-                           "the scene holds " + std::to_string(kObjectsMax) +
-                               " objects, the maximum: remove some first",
-                           static_cast<double>(kObjectsMax)});
-  }
-  if (auto added = executive.scene().add(object); !added) return failure(std::move(added.error()));
-  return Changed{executive.scene().version(), true};
-}
-
-Result<Changed> put(Executive& executive, const CollisionObject& object) {
-  if (!has_object(executive.scene().objects(), object.name)) return add(executive, object);
-  auto replaced = executive.scene().replace(object);
-  if (!replaced) return failure(std::move(replaced.error()));
-  return Changed{executive.scene().version(), false};
+Response tagged(Response response, std::uint64_t version) {
+  response.headers.emplace_back("ETag", '"' + std::to_string(version) + '"');
+  return response;
 }
 
 void get_scene(Call call) {
-  call.respond(answer(200, scene_format(), *call.parts.loop.board().read().scene));
+  const auto scene = call.parts.loop.board().read().scene;
+  call.respond(tagged(answer(200, scene_format(), *scene), scene->version));
 }
 
-// Answers when the change is stored. `text`: the object as the client sent it, or nullopt if it was
-// removed.
-void respond_when_stored(const ApiParts& parts, const std::string& name,
-                         std::optional<std::string> text, const Respond& respond,
-                         Response response) {
+// Edits the scene, then calls `then` on the server's thread.
+void edit(const ApiParts& parts, SceneEdit edit, RealTimeLoop::ObjectsTo objects_to,
+          Answered then) {
+  parts.loop.edit_scene(std::move(edit), std::move(objects_to),
+                        [&parts, then = std::move(then)](const Result<SceneEdited>& edited) {
+                          parts.post([then, edited = std::make_shared<const Result<SceneEdited>>(
+                                                edited)] { then(*edited); });
+                        });
+}
+
+bool is_of_cell(const ApiParts& parts, const std::string& name) {
+  return has_object(parts.cell->objects, name);
+}
+
+// Answers when the changes are stored.
+void respond_when_stored(const ApiParts& parts, std::vector<StoredObject> objects,
+                         const Respond& respond, Response response) {
   if (parts.keeper == nullptr) return respond(std::move(response));
-  parts.keeper->change({name, std::move(text), has_object(parts.cell->objects, name)},
+  parts.keeper->change(std::move(objects),
                        [respond, response = std::move(response)](std::optional<Refusal> refusal) {
                          respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
                        });
 }
 
-// Adds or replaces an object with `change`, which is add or put. `name`: name of the object in the
-// path, if any.
-template <class Change>
-void set_object(Call& call, const std::optional<std::string>& name, Change change) {
-  const auto set = [&parts = call.parts, respond = call.respond, text = call.request.body,
-                    change](CollisionObject object) {
-    const auto shared = std::make_shared<const CollisionObject>(std::move(object));
-    ask(
-        parts, [shared, change](Executive& executive) { return change(executive, *shared); },
-        [&parts, respond, text, shared](const Result<Changed>& changed) {
-          if (!changed) return respond(problem_response(changed.error()));
-          Response told = answer(changed->created ? 201 : 200, scene_change_format(),
-                                 SceneChange{changed->version, *shared});
-          if (changed->created) {
-            told = located(std::move(told), "/scene/objects/" + url_segment(shared->name));
-          }
-          respond_when_stored(parts, shared->name, *text, respond, std::move(told));
-        });
+// ---- Single objects ----
+
+// Adds the object of the body, or puts it. `name`: name of the object in the path, if any.
+template <class Edit>
+void set_object(Call& call, const std::optional<std::string>& name) {
+  const auto set = [&parts = call.parts, respond = call.respond,
+                    text = call.request.body](CollisionObject object) {
+    edit(parts, Edit{object}, nullptr,
+         [&parts, respond, text, object](const Result<SceneEdited>& edited) {
+           if (!edited) return respond(problem_response(edited.error()));
+           Response told = answer(edited->created ? 201 : 200, scene_change_format(),
+                                  SceneChange{edited->version, object});
+           if (edited->created) {
+             told = located(std::move(told), "/scene/objects/" + url_segment(object.name));
+           }
+           respond_when_stored(parts, {{object.name, *text, is_of_cell(parts, object.name)}},
+                               respond, std::move(told));
+         });
   };
   read_body(
       call.parts, call.request, call.respond,
       [name](std::string_view text) { return read_object_text(text, name); }, set);
 }
 
-void post_object(Call call) { set_object(call, std::nullopt, add); }
-void put_object(Call call) { set_object(call, call.arguments.front(), put); }
+void post_object(Call call) { set_object<ObjectAdded>(call, std::nullopt); }
+void put_object(Call call) { set_object<ObjectPut>(call, call.arguments.front()); }
 
 // Removes an object. Refuses to do so while the removal cannot be stored.
 void delete_object(Call call) {
   if (const auto refusal = refusal_of_store(call.parts)) {
     return call.respond(refusal_response(*refusal));
   }
-  ask(
-      call.parts,
-      [name = call.arguments.front()](Executive& executive) -> Result<std::uint64_t> {
-        if (auto done = executive.scene().remove(name); !done) return failure(done.error());
-        return executive.scene().version();
-      },
-      [&parts = call.parts, respond = call.respond,
-       name = call.arguments.front()](const Result<std::uint64_t>& version) {
-        if (!version) return respond(problem_response(version.error()));
-        respond_when_stored(parts, name, std::nullopt, respond,
-                            answer(200, scene_version_format(), *version));
-      });
+  const std::string& name = call.arguments.front();
+  edit(call.parts, ObjectRemoved{name}, nullptr,
+       [&parts = call.parts, respond = call.respond, name](const Result<SceneEdited>& edited) {
+         if (!edited) return respond(problem_response(edited.error()));
+         respond_when_stored(parts, {{name, std::nullopt, is_of_cell(parts, name)}}, respond,
+                             answer(200, scene_version_format(), edited->version));
+       });
+}
+
+// ---- All objects at once ----
+
+constexpr const char* kVersionDiffers = "scene-changed";
+
+// Objects to a scene that has another version than the client expects.
+RealTimeLoop::ObjectsTo unless_as_expected(const IfMatch& if_match,
+                                           std::optional<std::uint64_t> expected) {
+  if (!if_match && !expected) return nullptr;
+  return [if_match, expected](std::uint64_t version) -> std::optional<Problem> {
+    const std::string mine = '"' + std::to_string(version) + '"';
+    const auto is_mine = [&](std::string_view tag) { return tag == "*" || tag == mine; };
+    const bool differs = if_match && !any_tag(*if_match, is_mine);
+    if (!differs && (!expected || *expected == version)) return std::nullopt;
+    return Problem{ProblemKind::conflict, kVersionDiffers, differs ? "If-Match" : "/version",
+                   "the scene has version " + std::to_string(version) +
+                       ", so it has changed: fetch it again with GET /scene",
+                   differs ? *if_match : std::to_string(*expected)};
+  };
+}
+
+Response refused_edit(const Problems& problems) {
+  const Problem& first = problems.front();
+  if (first.slug != kVersionDiffers || first.pointer != "If-Match") {
+    return problem_response(problems);
+  }
+  return refusal_response({412, "precondition-failed", first.detail, first.pointer,
+                           std::get<std::string>(first.value)});
+}
+
+// Sets all objects. `texts`: of the objects, as JSON.
+void set_scene(const ApiParts& parts, const Respond& respond, const ObjectsSet& all,
+               std::vector<std::string> texts, RealTimeLoop::ObjectsTo objects_to) {
+  edit(parts, all, std::move(objects_to),
+       [&parts, respond, all, texts = std::move(texts)](const Result<SceneEdited>& edited) {
+         if (!edited) return respond(refused_edit(edited.error()));
+         std::vector<StoredObject> stored;
+         if (parts.keeper != nullptr) {
+           for (std::size_t i = 0; i < all.objects->size(); ++i) {
+             const std::string& name = (*all.objects)[i].name;
+             stored.push_back({name, texts[i], is_of_cell(parts, name)});
+           }
+           for (const std::string& name : edited->removed) stored.push_back({.name = name});
+         }
+         respond_when_stored(
+             parts, std::move(stored), respond,
+             tagged(answer(200, scene_version_format(), edited->version), edited->version));
+       });
+}
+
+// Refuses an invalid If-Match, and a removal that cannot be stored.
+std::optional<Response> refusal_of(const Call& call) {
+  if (auto bad = bad_if_match(call.request)) return bad;
+  if (const auto refusal = refusal_of_store(call.parts)) return refusal_response(*refusal);
+  return std::nullopt;
+}
+
+void put_scene(Call call) {
+  if (const auto refusal = refusal_of(call)) return call.respond(*refusal);
+  read_body(call.parts, call.request, call.respond, read_scene_text,
+            [&parts = call.parts, respond = call.respond,
+             if_match = call.request.if_match](ReadScene scene) {
+              set_scene(parts, respond, {scene.objects}, std::move(scene.texts),
+                        unless_as_expected(if_match, scene.version));
+            });
+}
+
+void delete_objects(Call call) {
+  if (const auto refusal = refusal_of(call)) return call.respond(*refusal);
+  set_scene(call.parts, call.respond, {std::make_shared<const std::vector<CollisionObject>>()}, {},
+            unless_as_expected(call.request.if_match, std::nullopt));
+}
+
+Parameter scene_if_match() {
+  return {"If-Match",
+          "`ETag` of the scene as the client read it; 412 if the scene was changed since",
+          {{"type", "string"}},
+          false,
+          "header"};
+}
+
+Outcome with_tag(Outcome outcome) {
+  outcome.has_tag = true;
+  return outcome;
 }
 
 }  // namespace
@@ -105,8 +183,42 @@ std::vector<Route> scene_routes() {
        .id = "getScene",
        .tag = "scene",
        .summary = "Get the objects of the scene",
-       .outcomes = {outcome(200, "The objects and the version of the scene", scene_format())},
+       .outcomes = {with_tag(
+           outcome(200, "The objects and the version of the scene", scene_format()))},
        .run = get_scene},
+      {.method = "PUT",
+       .path = api_path("/scene"),
+       .id = "putScene",
+       .tag = "scene",
+       .summary = "Set all objects at once",
+       .text =
+           "One change for thousands of objects, such as those of a camera: all or none. Objects "
+           "that clients had added and that are not in the body are removed. Objects of the cell "
+           "file stay, unless the body has an object of their name. 409 if an object would "
+           "overlap an arm, if a name is in use, or if `version` is not the scene's.",
+       .parameters = {scene_if_match()},
+       .reads = body(scene_request_format(),
+                     {{"voxels", R"({"objects": [{"name": "v1", "box": [0.04, 0.04, 0.04], )"
+                                 R"("xyz": [0, 0.9, 0.2]}, {"name": "v2", )"
+                                 R"("box": [0.04, 0.04, 0.04], "xyz": [0, 0.9, 0.3]}]})"}}),
+       .outcomes = {with_tag(outcome(200, "The scene is set and all motions are checked against it",
+                                     scene_version_format()))},
+       .refuses = {400, 409, 412, 422, 507},
+       .who = Who::commander,
+       .role = Role::operate,
+       .run = put_scene},
+      {.method = "DELETE",
+       .path = objects,
+       .id = "removeObjects",
+       .tag = "scene",
+       .summary = "Remove all objects that clients have added",
+       .text = "Objects of the cell file stay as they are.",
+       .parameters = {scene_if_match()},
+       .outcomes = {with_tag(outcome(200, "The objects are removed", scene_version_format()))},
+       .refuses = {400, 412, 507},
+       .who = Who::commander,
+       .role = Role::operate,
+       .run = delete_objects},
       {.method = "POST",
        .path = objects,
        .id = "addObject",

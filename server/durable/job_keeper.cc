@@ -85,8 +85,9 @@ void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refus
                 [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 
-void JobKeeper::change(StoredObject object, std::function<void(std::optional<Refusal>)> then) {
-  store_->change(std::move(object),
+void JobKeeper::change(std::vector<StoredObject> objects,
+                       std::function<void(std::optional<Refusal>)> then) {
+  store_->change(std::move(objects),
                  [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 

@@ -49,8 +49,8 @@ class JobKeeper final : public StartLog {
   // Persists a job's amendments. Calls `then` with nullopt when they are on disk, or with the
   // reason why they are not on disk yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
-  // Persists a change of a scene object. Calls `then` in the same way as amend().
-  void change(StoredObject object, std::function<void(std::optional<Refusal>)> then);
+  // Persists changes of scene objects, all or none. Calls `then` in the same way as amend().
+  void change(std::vector<StoredObject> objects, std::function<void(std::optional<Refusal>)> then);
   // Calls `then` with nullopt when all earlier changes are on disk, or with the reason why they are
   // not on disk yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);

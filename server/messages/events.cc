@@ -114,7 +114,7 @@ FormatPtr<SnapshotView> snapshot_format() {
           output_only(
               "queue", [](const View& view) { return &view.snapshot->queue; }, queue_ids_format()),
           output_only(
-              "objects", [](const View& view) { return &view.snapshot->scene.objects; },
+              "objects", [](const View& view) { return &view.snapshot->scene.objects(); },
               list(object_format())),
           output_if("gap", gap, flag(), "true if events before this snapshot were lost"),
       }));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/plain_name.h"
+#include "core/executive/live_scene.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/output_part.h"
@@ -37,9 +38,10 @@ FormatPtr<ObjectDescription> make_object_format(Need name) {
               name,
               {}},
              &ObjectDescription::name, object_name_format()),
-      not_served<ObjectDescription>(
-          {"mesh", "unsupported",
-           "a mesh can be given in the cell file only; give a box, a cylinder or a sphere"}),
+      not_served<ObjectDescription>({"mesh", "unsupported",
+                                     "a mesh can be given in the cell file only; give a box, a "
+                                     "cylinder or a sphere. PUT /scene "
+                                     "keeps the meshes of the cell file if they are left out"}),
       unless("mesh", inlined(&ObjectDescription::shape, primitive_part())),
       inlined(&ObjectDescription::X_WO, pose_part()),
   });
@@ -76,6 +78,41 @@ FormatPtr<ObjectDescription> named_object_request_format() {
             "The members of ObjectRequest. The name is in the path; it may be repeated here.",
             make_object_format(Need::optional));
   return format;
+}
+
+FormatPtr<SceneRequest> scene_request_format() {
+  using Request = SceneRequest;
+  static const auto format =
+      named("SceneRequest",
+            "All objects of the scene, as GET /scene returns them. Objects of the cell file that "
+            "are left "
+            "out stay as they are; all others are removed.",
+            object<Request>({
+                required("objects", &Request::objects,
+                         list(object_request_format(), {.most = kObjectsMax, .noun = "objects"}),
+                         "The objects; a name of an object of the cell file replaces that object"),
+                field("version", &Request::version, count(),
+                      "Version that the scene must have, as in GET /scene; 409 if it has another "
+                      "version. Default: any version"),
+            }));
+  return format;
+}
+
+Result<ReadScene> read_scene_text(std::string_view text) {
+  const auto body = parse_json(text, JsonComments::refused);
+  if (!body) return failure(body.error());
+  Problems faults;
+  SceneRequest request;
+  scene_request_format()->read(JsonNode(*body, "", faults), request);
+  if (!faults.empty()) return failure(std::move(faults));
+  ReadScene scene{{}, {}, request.version};
+  std::vector<CollisionObject> objects;
+  for (ObjectDescription& object : request.objects) {
+    objects.push_back({std::move(object.name), object.shape, object.X_WO});
+  }
+  scene.objects = std::make_shared<const std::vector<CollisionObject>>(std::move(objects));
+  for (const auto& object : body->at("objects")) scene.texts.push_back(object.dump());
+  return scene;
 }
 
 bool has_object(const std::vector<CollisionObject>& objects, std::string_view name) {
@@ -120,7 +157,9 @@ FormatPtr<SceneView> scene_format() {
             object<SceneView>({
                 output_only("version", &SceneView::version, count(),
                             "Version of the scene; grows with every change"),
-                output_only("objects", &SceneView::objects, list(object_format())),
+                output_only(
+                    "objects", [](const SceneView& view) { return &view.objects(); },
+                    list(object_format())),
             }));
   return format;
 }

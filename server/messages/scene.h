@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +22,19 @@ namespace armloom {
 [[nodiscard]] FormatPtr<ObjectDescription> named_object_request_format();
 [[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
                                                        const std::optional<std::string>& name);
+
+// Body of PUT /scene.
+struct SceneRequest {
+  std::vector<ObjectDescription> objects;
+  std::optional<std::uint64_t> version;  // the version that the client expects
+};
+[[nodiscard]] FormatPtr<SceneRequest> scene_request_format();
+struct ReadScene {
+  std::shared_ptr<const std::vector<CollisionObject>> objects;
+  std::vector<std::string> texts;  // of the objects, as JSON
+  std::optional<std::uint64_t> version;
+};
+[[nodiscard]] Result<ReadScene> read_scene_text(std::string_view text);
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
 

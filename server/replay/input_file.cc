@@ -16,7 +16,9 @@ Result<std::unique_ptr<InputFile>> InputFile::create(const std::filesystem::path
 }
 
 void InputFile::came(std::uint64_t ticks, const ExecutiveInput& input) {
-  parts_.post([this, line = text_of(*logged_input_format(), {ticks, input})] { write(line); });
+  parts_.post([this, logged = std::make_shared<const LoggedInput>(LoggedInput{ticks, input})] {
+    write(text_of(*logged_input_format(), *logged));
+  });
 }
 
 // Writes nothing more after the first failure, because a log with a gap cannot be replayed.

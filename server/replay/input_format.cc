@@ -98,8 +98,7 @@ FormatPtr<In::FormerJob> former_job_format() {
 
 // The object's format stores the rotation as angles, which do not read back to exactly the same
 // matrix. So the matrix X_WO is stored, too, row by row.
-template <class Input>
-PartPtr<Input> object_part() {
+PartPtr<CollisionObject> matrix_part() {
   using Rows = std::array<double, 12>;
   using Matrix = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
   const auto rows = [](const Eigen::Isometry3d& X_WO) {
@@ -112,11 +111,35 @@ PartPtr<Input> object_part() {
     X_WO.matrix().topRows<3>() = Eigen::Map<const Matrix>(all.data());
     return X_WO;
   };
+  return always("X_WO", &CollisionObject::X_WO, numbers<12>(kAnyNumber), "", rows, pose);
+}
+
+template <class Input>
+PartPtr<Input> object_part() {
   return parts<Input>({
       always("object", &Input::object, object_format()),
-      inlined(&Input::object,
-              always("X_WO", &CollisionObject::X_WO, numbers<12>(kAnyNumber), "", rows, pose)),
+      inlined(&Input::object, matrix_part()),
   });
+}
+
+// One object of a list, in the same form as object_part().
+struct ListedObject {
+  CollisionObject object;
+};
+PartPtr<In::ObjectsSet> objects_part() {
+  const auto listed = object<ListedObject>({object_part<ListedObject>()});
+  const auto wrapped = [](const std::shared_ptr<const std::vector<CollisionObject>>& objects) {
+    std::vector<ListedObject> all;
+    if (objects == nullptr) return all;  // not read yet
+    for (const CollisionObject& object : *objects) all.push_back({object});
+    return all;
+  };
+  const auto shared = [](std::vector<ListedObject> all) {
+    std::vector<CollisionObject> objects;
+    for (ListedObject& one : all) objects.push_back(std::move(one.object));
+    return std::make_shared<const std::vector<CollisionObject>>(std::move(objects));
+  };
+  return always("objects", &In::ObjectsSet::objects, list(listed), "", wrapped, shared);
 }
 
 PartPtr<Alert> alert_part() {
@@ -174,6 +197,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"add_object", {object_part<In::ObjectAdded>()}},
       {"replace_object", {object_part<In::ObjectReplaced>()}},
       {"remove_object", {always("object", &In::ObjectRemoved::name, text())}},
+      {"set_objects", {objects_part()}},
       {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},
       {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},

@@ -267,9 +267,11 @@ void JobStore::about_to_move(std::uint64_t number, Done done) {
 
 void JobStore::stopped(std::vector<std::string> arms) { impl_->add_stops(std::move(arms)); }
 
-void JobStore::change(StoredObject object, Done done) {
+void JobStore::change(std::vector<StoredObject> objects, Done done) {
   Pending changes;
-  changes.objects.insert_or_assign(object.name, std::move(object));
+  for (StoredObject& object : objects) {
+    changes.objects.insert_or_assign(object.name, std::move(object));
+  }
   changes.acceptances.push_back({.jobs = {}, .done = std::move(done)});
   impl_->add(std::move(changes));
 }

@@ -96,7 +96,7 @@ class JobStore {
   void stopped(std::vector<std::string> arms);
   // Stores a change of a scene object. If it cannot be written, `done` gets false, but the store
   // keeps it and tries again.
-  void change(StoredObject object, Done done);
+  void change(std::vector<StoredObject> objects, Done done);
 
   // The next three functions store soon, and report nothing. answered_with() stores that another
   // request, with an Idempotency-Key, was answered with the job.

@@ -267,5 +267,44 @@ TEST(MotionStore, ForgetsDiagramsOnlyWhenAttachedObjectsChange) {
   EXPECT_GT(cells_looked_at(), 0U);
 }
 
+// The arm turns about the origin, from 0.5 to 1.5 rad, and reaches 0.4 m.
+TEST(MotionStore, ChecksAgainOnlyWhatMeetsTheChange) {
+  const CellPtr cell = small::shared(two_arms(0.9));
+  const Configuration rest = Configuration::Zero(2);
+  const auto trajectory = small::sweep(*cell, {kA}, {0.5}, {1.5}, 4s);
+  const auto post_at = [](double angle, double far_m) {
+    return CollisionObject{"post", Sphere{0.05},
+                           small::at_xyz(far_m * std::cos(angle), far_m * std::sin(angle), 0)};
+  };
+  const CollisionObject other{"other", Box{{0.1, 0.1, 0.1}}, small::at_xyz(0, 0, 0.8)};
+  MotionStore store(*(*PlanningScene::build(cell))->with_objects({other}));
+  struct Seen {
+    std::uint64_t evaluations;
+    bool is_free;
+  };
+  const auto look = [&](std::vector<CollisionObject> objects) {
+    objects.push_back(other);
+    store.look_at(*store.scene()->with_objects(std::move(objects)));
+    store.begin_question();
+    const auto diagram = store.with_still(store.motion(trajectory, kA, rest, 0.0));
+    const auto answer = diagram.ask({.duration_a = 4.0}, 1000);
+    return Seen{answer.evaluations, !answer.conflict};
+  };
+  EXPECT_GT(look({}).evaluations, 0U);
+  const Seen behind = look({post_at(-1.5, 0.35)});
+  EXPECT_EQ(behind.evaluations, 0U) << "within reach, but not near the motion";
+  EXPECT_TRUE(behind.is_free);
+  EXPECT_EQ(look({post_at(-1.6, 0.35)}).evaluations, 0U);
+  const Seen ahead = look({post_at(1.2, 0.35)});
+  EXPECT_GT(ahead.evaluations, 0U);
+  EXPECT_FALSE(ahead.is_free);
+  EXPECT_FALSE(look({post_at(1.2, 0.36)}).is_free) << "it has moved, and is still there";
+  EXPECT_TRUE(look({}).is_free);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(look({post_at(1.0 + 0.01 * i, 0.35)}).is_free, false) << i;
+    EXPECT_TRUE(look({post_at(-1.5, 0.3)}).is_free) << i;
+  }
+}
+
 }  // namespace
 }  // namespace armloom

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/collision/scene/scene_bodies.h"
 #include "test/scenarios/polygon.h"
 
 namespace armloom {
@@ -53,6 +54,109 @@ TEST(Scene, RefusesImpossibleChanges) {
             ProblemKind::not_found);
   EXPECT_EQ(executive.scene().remove("other").error().front().kind, ProblemKind::not_found);
   EXPECT_EQ(executive.scene().version(), version);
+}
+
+TEST(Scene, SetReplacesAllObjectsInOneChange) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  ASSERT_TRUE(scene.set({ball_at(1.5, "a"), ball_at(1.8, "b")}));
+  const std::uint64_t version = scene.version();
+  const std::size_t events = cell.log.events.size();
+  ASSERT_TRUE(scene.set({ball_at(1.8, "b"), ball_at(2.1, "c")}));
+  EXPECT_EQ(scene.version(), version + 1);
+  EXPECT_EQ(cell.log.events.size(), events + 1);
+  ASSERT_EQ(scene.objects().size(), 2U);
+  EXPECT_EQ(scene.objects()[0].name, "b");
+  EXPECT_EQ(scene.objects()[1].name, "c");
+}
+
+TEST(Scene, SetKeepsTheObjectsOfTheCellFile) {
+  CellDescription description = crossing_description();
+  description.objects.push_back({"table", Sphere{0.1}, Eigen::Isometry3d::Identity()});
+  description.objects.back().X_WO.translation().z() = 3.0;
+  Crossing cell(description);
+  LiveScene& scene = cell.simulation->executive().scene();
+  ASSERT_TRUE(scene.set({ball_at(1.5)}));
+  ASSERT_EQ(scene.objects().size(), 2U);
+  EXPECT_EQ(scene.objects()[0].X_WO.translation().z(), 3.0);
+  CollisionObject table = ball_at(1.8, "table");
+  ASSERT_TRUE(scene.set({table}));
+  ASSERT_EQ(scene.objects().size(), 1U);
+  EXPECT_EQ(scene.objects()[0].X_WO.translation().x(), 1.8);
+  ASSERT_TRUE(scene.set({}));
+  EXPECT_EQ(scene.objects().size(), 1U);
+}
+
+TEST(Scene, SetPausesTheMotionThatMeetsOneOfManyObjects) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 8, "moves"));
+  cell.run_until(at(2s));
+  std::vector<CollisionObject> many;
+  for (int i = 0; i < 150; ++i) many.push_back(ball_at(3.0 + i, "far " + std::to_string(i)));
+  many[77] = ball_at(0.8, "near");
+  ASSERT_TRUE(cell.simulation->executive().scene().set(many));
+  cell.run_until(at(10s));
+  EXPECT_EQ(cell.job("moves").state, JobState::paused);
+  EXPECT_EQ(cell.job("moves").waits_on.front().links.back(), "near");
+  ASSERT_TRUE(cell.simulation->executive().scene().set({}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("moves").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
+TEST(Scene, RefusedSetLeavesTheSceneAsItWas) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  ASSERT_TRUE(scene.set({ball_at(1.5)}));
+  const PlanningScenePtr before = scene.scene();
+  const auto in_arm = scene.set({ball_at(1.8), ball_at(-1.0, "in arm")});
+  ASSERT_FALSE(in_arm);
+  EXPECT_EQ(in_arm.error().front().slug, "object-in-arm");
+  EXPECT_EQ(in_arm.error().front().pointer, "/objects/1");
+  const auto doubled = scene.set({ball_at(1.8), ball_at(2.1)});
+  ASSERT_FALSE(doubled);
+  EXPECT_EQ(doubled.error().front().pointer, "/objects/1/name");
+  const auto too_many = scene.set([] {
+    std::vector<CollisionObject> all;
+    for (std::size_t i = 0; i <= kObjectsMax; ++i) {
+      all.push_back(ball_at(5.0, std::to_string(i)));
+    }
+    return all;
+  }());
+  ASSERT_FALSE(too_many);
+  EXPECT_EQ(too_many.error().front().slug, "scene-full");
+  EXPECT_EQ(scene.scene(), before);
+}
+
+// Another object may stand closer to an arm than a new one may: that is not the new one's fault.
+TEST(Scene, ChangeIsRefusedOnlyForTheObjectsThatChange) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  ASSERT_TRUE(scene.add(ball_at(0.5)));
+  cell.submit(slide("x", -1, 0.5, 4, "towards"));
+  cell.run_until(at(3s));
+  ASSERT_TRUE(scene.add(ball_at(2.0, "other")));
+  ASSERT_TRUE(scene.remove("other"));
+}
+
+TEST(Scene, EditPreparedForAnEarlierSceneIsPreparedAgain) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  PreparedEdit late = prepare(ObjectPut{ball_at(1.5)}, scene.scene());
+  ASSERT_TRUE(scene.add(ball_at(2.0, "between")));
+  ASSERT_TRUE(scene.apply(late));
+  EXPECT_EQ(scene.objects().size(), 2U);
+}
+
+TEST(Scene, KeepsFittedShapesOverChanges) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  ASSERT_TRUE(scene.set({ball_at(1.5, "a"), ball_at(1.8, "b")}));
+  const PlanningScenePtr before = scene.scene();
+  ASSERT_TRUE(scene.add(ball_at(2.1, "c")));
+  const auto fitted = [](const PlanningScenePtr& of) { return of->bodies().fitted; };
+  EXPECT_EQ(fitted(before), fitted(scene.scene())) << "three balls of one size are fitted once";
+  EXPECT_EQ(fitted(before).size(), 1U);
 }
 
 TEST(Predecessors, DelayTheirSuccessor) {

@@ -129,7 +129,15 @@ TEST_F(Durable, SceneChangesSurviveARestart) {
     EXPECT_EQ(get("/api/v1/scene").json()["objects"], before);
     EXPECT_FALSE(get("/api/v1/queue").json()["stopped"]);
   }
-  ASSERT_EQ(remove(at + "/crate").status, 200);
+  const json pillar{{"name", "pillar"}, {"box", {0.2, 0.2, 0.2}}, {"xyz", {2, 2, 1}}};
+  ASSERT_EQ(
+      test::request(port(), "PUT", "/api/v1/scene", json{{"objects", {pillar}}}.dump()).status,
+      200);
+  restart();
+  const json pillars = get("/api/v1/scene").json()["objects"];
+  ASSERT_EQ(pillars.size(), 1U) << pillars;
+  EXPECT_EQ(pillars[0]["name"], "pillar");
+  ASSERT_EQ(remove(at).status, 200);
   restart();
   EXPECT_EQ(get("/api/v1/scene").json()["objects"], json::array());
 }

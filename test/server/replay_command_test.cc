@@ -25,7 +25,7 @@ json ended(std::uint16_t port, const std::string& id) {
 class ReplayCommand : public test::CommandFixture {
  protected:
   std::string data() const { return (folder_ / "data").string(); }
-  // Runs a server with conflicting jobs, a changed priority, a goal, an object and a stop; then
+  // Runs a server with conflicting jobs, a changed priority, a goal, objects and a stop; then
   // kills it.
   void live() const {
     test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "4"},
@@ -53,6 +53,13 @@ class ReplayCommand : public test::CommandFixture {
           {"xyz", {0, 1.5, 0.1}},
           {"rpy", {0.1, 0.2, 0.3}}});
     call("POST", "/jobs", {{"id", "goal"}, {"arm", "left"}, {"move_to", {{"named", "ready"}}}});
+    call("PUT", "/scene",
+         {{"objects",
+           {{{"name", "crate"}, {"box", {0.1, 0.1, 0.1}}, {"xyz", {0, 1.6, 0.1}}},
+            {{"name", "rod"},
+             {"cylinder", {0.02, 0.4}},
+             {"rpy", {0.1, 0.2, 0.3}},
+             {"xyz", {0, 2, 0.1}}}}}});
     call("POST", "/stop", nullptr);
     call("POST", "/resume", nullptr);
     call("PUT", "/sim/speed", {{"speed", 20}});

@@ -67,5 +67,47 @@ TEST_F(SceneVerbs, InvalidObjectsAreRefusedWithPlaceAndValue) {
   EXPECT_EQ(get("/api/v1/scene").json()["version"], version);
 }
 
+TEST_F(SceneVerbs, AllObjectsAreSetAndRemovedAtOnce) {
+  start(1.0);
+  const std::string scene = "/api/v1/scene";
+  const auto got = get(scene);
+  const std::uint64_t version = got.json()["version"];
+  const std::size_t of_cell = got.json()["objects"].size();
+  EXPECT_EQ(got.headers.at("etag"), '"' + std::to_string(version) + '"');
+  json objects = json::array();
+  for (int i = 0; i < 20; ++i) {
+    objects.push_back({{"name", "v" + std::to_string(i)},
+                       {"box", {0.04, 0.04, 0.04}},
+                       {"xyz", {0, 0.9, 0.2 + 0.05 * i}}});
+  }
+  const auto set = put(scene, json{{"objects", objects}, {"version", version}}.dump());
+  ASSERT_EQ(set.status, 200) << set.body;
+  EXPECT_EQ(set.json()["version"], version + 1);
+  EXPECT_EQ(set.headers.at("etag"), '"' + std::to_string(version + 1) + '"');
+  const json now = get(scene).json();
+  EXPECT_EQ(now["objects"].size(), of_cell + 20) << "the cell file's objects stay";
+  ASSERT_EQ(put(scene, now.dump()).status, 200) << "what GET returns can be PUT back";
+  EXPECT_EQ(get(scene).json()["objects"], now["objects"]);
+
+  expect_refused(put(scene, json{{"objects", objects}, {"version", version}}.dump()), 409,
+                 "/version", std::to_string(version));
+  test::Wire wire(port());
+  wire.send("DELETE " + scene +
+            "/objects HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\nIf-Match: \"1\"\r\n\r\n");
+  expect_refused(test::read_answer(wire), 412, "If-Match", "\"1\"");
+  objects.push_back(objects[3]);
+  expect_refused(put(scene, json{{"objects", objects}}.dump()), 409, "/objects/20/name", "v3");
+  objects.back() = {{"name", "b"}, {"sphere", {0.3}}, {"xyz", {-0.4, 0, 0.5}}};
+  const auto into_arm = put(scene, json{{"objects", objects}}.dump());
+  EXPECT_EQ(into_arm.status, 409) << into_arm.body;
+  EXPECT_EQ(into_arm.json()["pointer"], "/objects/20");
+  EXPECT_EQ(get(scene).json()["version"], version + 2) << "refused edits change nothing";
+
+  const auto cleared = remove(scene + "/objects");
+  EXPECT_EQ(cleared.status, 200) << cleared.body;
+  EXPECT_EQ(cleared.json()["version"], version + 3);
+  EXPECT_EQ(get(scene).json()["objects"].size(), of_cell);
+}
+
 }  // namespace
 }  // namespace armloom

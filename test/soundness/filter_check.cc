@@ -91,7 +91,7 @@ class Checker {
   void add(std::size_t a, std::size_t b) {
     Set set{pairs_between(bodies_, linkages_[a], linkages_[b]), a, b};
     for (const NarrowPair& pair : set.pairs.narrow) compared_.insert(pair.pair);
-    for (const NarrowPair& pair : set.pairs.narrow_boxes) compared_.insert(pair.pair);
+    set.pairs.each_boxed([&](const NarrowPair& pair) { compared_.insert(pair.pair); });
     for (filter::Pair& pair : set.pairs.pairs) {
       const auto radius = [&](std::size_t arm, int capsule) {
         return linkages_[arm].capsules()[static_cast<std::size_t>(capsule)].radius_up;
@@ -102,10 +102,8 @@ class Checker {
       pair.limit_up = kFar_m;
       pair.row_a = pair.row_b = 0;  // all rows are zero
     }
-    for (filter::BoxPair& pair : set.pairs.boxes) {
-      pair.limit_up = kFar_m;
-      pair.row_a = 0;
-    }
+    for (filter::StaticBox& box : set.pairs.boxes) box.limit_up = kFar_m;
+    for (filter::BoxedCapsule& capsule : set.pairs.boxed) capsule.row = 0;
     sets_.push_back(std::move(set));
   }
 
@@ -113,28 +111,29 @@ class Checker {
     const filter::Kernel& kernel = filter::best_kernel();
     const filter::Side a = arms_[set.a].side();
     const filter::Side b = arms_[set.b].side();
-    hits_.resize(std::max(set.pairs.pairs.size(), set.pairs.boxes.size()) + 1);
+    hits_.resize(set.pairs.hits_max() + 1);
     const int pairs = kernel.near_pairs(a, b, set.pairs.ungrouped(), 0xFF, hits_.data());
     if (static_cast<std::size_t>(pairs) != set.pairs.pairs.size()) {
       throw std::logic_error("the filter leaves out pairs that it was to tell");
     }
     least_.clear();
-    collect(set.pairs.narrow, pairs);
-    const int boxes = kernel.near_boxes(
-        a, set.pairs.boxes.data(), static_cast<int>(set.pairs.boxes.size()), 0xFF, hits_.data());
-    collect(set.pairs.narrow_boxes, boxes);
+    collect(pairs, [&](const filter::Hit& hit) {
+      return set.pairs.narrow[static_cast<std::size_t>(hit.pair)].pair;
+    });
+    collect(
+        kernel.near_boxes(a, set.pairs.all_boxes(), 0xFF, hits_.data()),
+        [&](const filter::Hit& hit) { return set.pairs.narrow_of(hit.pair, hit.capsule).pair; });
     for (const auto& [pair, distances] : least_) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) hold(pair, distances[lane], lane);
     }
   }
 
-  void collect(const std::vector<NarrowPair>& narrow, int count) {
+  template <class Pair>
+  void collect(int count, const Pair& pair_of) {
     for (int h = 0; h < count; ++h) {
       const filter::Hit& hit = hits_[static_cast<std::size_t>(h)];
-      auto& least = least_
-                        .try_emplace(narrow[static_cast<std::size_t>(hit.pair)].pair,
-                                     std::vector<double>(kLanes, 1e9))
-                        .first->second;
+      auto& least =
+          least_.try_emplace(pair_of(hit), std::vector<double>(kLanes, 1e9)).first->second;
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         least[lane] = std::min(least[lane], static_cast<double>(hit.distance[lane]));
       }

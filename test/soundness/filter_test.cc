@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
 #include "core/collision/filter/arm_kinematics.h"
 #include "core/collision/filter/kernels.h"
+#include "core/geometry/capsule/segment_distance.h"
 #include "test/soundness/filter_check.h"
 #include "test/soundness/pairs.h"
 #include "test/soundness/random_linkage.h"
@@ -52,7 +54,8 @@ struct Comparison {
   std::vector<double> q;
   std::vector<float> span;
   std::vector<filter::Pair> pairs = {};
-  std::vector<filter::BoxPair> boxes = {};
+  std::vector<filter::StaticBox> boxes = {};
+  std::vector<filter::BoxedCapsule> boxed = {};
   unsigned lanes = 0xFF;
 };
 
@@ -61,7 +64,7 @@ struct Results {
 
   std::vector<double> frames;
   std::vector<float> axes, capsules, motion_bounds, sweeps;
-  std::vector<filter::Hit> hits, box_hits;
+  std::vector<filter::Hit> hits, box_hits, unskipped_box_hits;
 
  private:
   Results(const filter::Kernel& kernel, const Comparison& of, const RandomLinkage& arm)
@@ -71,17 +74,28 @@ struct Results {
         motion_bounds(static_cast<std::size_t>(arm.rows) * kLanes),
         sweeps(arm.capsules.size() * filter::kSweep * kLanes),
         hits(of.pairs.size() + 1),
-        box_hits(of.boxes.size() + 1) {
+        box_hits(of.boxes.size() * of.boxed.size() + 1) {
     const filter::Placed placed{frames.data(), axes.data(), capsules.data()};
     kernel.place(arm.view(), of.q.data(), placed);
     kernel.inflate(arm.view(), placed, {of.span.data(), of.span.data(), of.span.data()},
                    {motion_bounds.data(), sweeps.data()});
-    const filter::Side side{capsules.data(), motion_bounds.data()};
+    const filter::Side side{capsules.data(), motion_bounds.data(), nullptr};
     const filter::Pairs pairs{of.pairs.data(), static_cast<int>(of.pairs.size()), {}};
     hits.resize(
         static_cast<std::size_t>(kernel.near_pairs(side, side, pairs, of.lanes, hits.data())));
-    box_hits.resize(static_cast<std::size_t>(kernel.near_boxes(
-        side, of.boxes.data(), static_cast<int>(of.boxes.size()), of.lanes, box_hits.data())));
+    std::vector<int> rows;
+    for (const filter::Capsule& capsule : arm.capsules) rows.push_back(capsule.motion_bounds_begin);
+    std::vector<float> ball(4 * kLanes);
+    kernel.enclose(arm.view(), capsules.data(), motion_bounds.data(), rows.data(), ball.data());
+    const filter::Boxes boxes{of.boxes.data(), static_cast<int>(of.boxes.size()), of.boxed.data()};
+    const auto hits_of = [&](const filter::Side& of_side) {
+      std::vector<filter::Hit> found(of.boxes.size() * of.boxed.size() + 1);
+      found.resize(
+          static_cast<std::size_t>(kernel.near_boxes(of_side, boxes, of.lanes, found.data())));
+      return found;
+    };
+    box_hits = hits_of({capsules.data(), motion_bounds.data(), ball.data()});
+    unskipped_box_hits = hits_of(side);  // without the ball
   }
 };
 
@@ -117,20 +131,65 @@ std::vector<filter::Pair> all_pairs(const RandomLinkage& arm, std::mt19937_64& r
   return pairs;
 }
 
-std::vector<filter::BoxPair> boxes_for(const RandomLinkage& arm, std::mt19937_64& random) {
-  std::vector<filter::BoxPair> boxes;
+std::vector<filter::BoxedCapsule> boxed_capsules(const RandomLinkage& arm) {
+  std::vector<filter::BoxedCapsule> boxed;
   for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
-    filter::BoxPair box{};
-    box.a = a;
-    box.row_a = arm.capsules[static_cast<std::size_t>(a)].motion_bounds_begin;
+    const filter::Capsule& capsule = arm.capsules[static_cast<std::size_t>(a)];
+    boxed.push_back({a, capsule.motion_bounds_begin, capsule.radius_up});
+  }
+  return boxed;
+}
+
+std::vector<filter::StaticBox> boxes_for(const RandomLinkage& arm, std::mt19937_64& random) {
+  std::vector<filter::StaticBox> boxes;
+  for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
+    filter::StaticBox box{};
     box.R[0] = box.R[4] = box.R[8] = 1.0F;
+    float squared = 0.0F;
     for (float& x : box.center) x = static_cast<float>(uniform(random, -1.0, 1.0));
-    for (float& x : box.half_up) x = static_cast<float>(uniform(random, 0.0, 0.5));
+    for (float& x : box.half_up) {
+      x = static_cast<float>(uniform(random, 0.0, 0.5));
+      squared += x * x;
+    }
+    box.ball_up = std::sqrt(squared) * 1.00001F;
     box.limit_up = 0.1F;
-    box.radius_up = arm.capsules[static_cast<std::size_t>(a)].radius_up;
+    box.begin = a;
+    box.end = static_cast<int>(arm.capsules.size());
     boxes.push_back(box);
   }
   return boxes;
+}
+
+// Each hit without skipping is also a hit with skipping, or the capsule is far from the box.
+void expect_skips_only_far_boxes(const Comparison& of, const Results& results) {
+  auto kept = results.box_hits.begin();
+  for (const filter::Hit& hit : results.unskipped_box_hits) {
+    if (kept != results.box_hits.end() && kept->pair == hit.pair && kept->capsule == hit.capsule) {
+      EXPECT_EQ(kept->lanes, hit.lanes);
+      ++kept;
+      continue;
+    }
+    const filter::StaticBox& box = of.boxes[static_cast<std::size_t>(hit.pair)];
+    const int capsule = of.boxed[static_cast<std::size_t>(hit.capsule)].capsule;
+    for (int l = 0; l < kLanes; ++l) {
+      if ((hit.lanes >> l & 1U) == 0) continue;
+      CenteredSegment axis;
+      Eigen::Vector3d half_m;
+      for (int i = 0; i < 3; ++i) {
+        const auto at = [&](int row) {
+          return static_cast<double>(
+              results.capsules[static_cast<std::size_t>((capsule * 6 + row) * kLanes + l)]);
+        };
+        axis.center[i] = at(i) - static_cast<double>(box.center[i]);
+        axis.half[i] = at(3 + i);
+        half_m[i] = static_cast<double>(box.half_up[i]);
+      }
+      const double radius_m = of.boxed[static_cast<std::size_t>(hit.capsule)].radius_up;
+      EXPECT_GE(segment_box_distance(axis, half_m) - radius_m,
+                static_cast<double>(box.limit_up + hit.motion_bound[l]) - 1e-5);
+    }
+  }
+  EXPECT_EQ(kept, results.box_hits.end());
 }
 
 TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
@@ -147,6 +206,7 @@ TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
     for (float& x : of.span) x = static_cast<float>(uniform(random, 0.0, 0.05));
     of.pairs = all_pairs(arm, random);
     of.boxes = boxes_for(arm, random);
+    of.boxed = boxed_capsules(arm);
     of.lanes = static_cast<unsigned>(random() % 256);
     const Results reference(filter::kScalarKernel, of);
     hits += reference.hits.size();
@@ -158,6 +218,7 @@ TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
       ASSERT_TRUE(same_bits(reference.capsules, results.capsules)) << kernel->name;
       ASSERT_TRUE(same_hits(reference.hits, results.hits)) << kernel->name;
       ASSERT_TRUE(same_hits(reference.box_hits, results.box_hits)) << kernel->name;
+      expect_skips_only_far_boxes(of, results);
       for (const filter::Capsule& c : arm.capsules) {
         for (int row = c.motion_bounds_begin; row <= c.motion_bounds_begin + c.depth; ++row) {
           const auto at = static_cast<std::size_t>(row * kLanes);

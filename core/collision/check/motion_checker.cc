@@ -67,13 +67,14 @@ void MotionChecker::look_at(PlanningScenePtr scene) {
   } else {
     store_.look_at(std::move(scene));
   }
-  query_ = ClearanceQuery(store_.scene());
+  query_.reset();
 }
 
 Verdict MotionChecker::judge(const Question& question, CheckProgress* progress) {
   Verdict verdict;
   if (std::holds_alternative<TimedDiscrete>(question.method)) {
-    verdict = timed_discrete_check(question, query_);
+    if (!query_) query_.emplace(store_.scene());
+    verdict = timed_discrete_check(question, *query_);
     if (!question.passages.empty()) store_.begin_question(progress);
   } else {
     store_.begin_question(progress);

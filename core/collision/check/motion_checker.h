@@ -36,11 +36,10 @@ namespace armloom {
 // thread-safe: use one MotionChecker per worker thread.
 class MotionChecker {
  public:
-  explicit MotionChecker(PlanningScenePtr scene)
-      : store_(std::move(scene)), query_(store_.scene()) {}
+  explicit MotionChecker(PlanningScenePtr scene) : store_(std::move(scene)) {}
 
   // Switches to another scene. If the cell and the attached objects are the same, keeps the
-  // diagrams of pairs of arms.
+  // diagrams that the change does not meet (MotionStore).
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return store_.scene(); }
 
@@ -60,7 +59,7 @@ class MotionChecker {
 
  private:
   MotionStore store_;
-  ClearanceQuery query_;
+  std::optional<ClearanceQuery> query_;  // in the present scene; made on first use
 };
 
 }  // namespace armloom

@@ -155,7 +155,7 @@ std::optional<CoordinationDiagram::Witness> CoordinationDiagram::on_the_line(
     const Open& open, const ProgressBand& band) {
   const Node& cell = tree_.at(open.cell);
   const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
-  const NarrowPair& pair = pair_.narrow(found.narrow, found.box);
+  const NarrowPair pair = pair_.narrow(found.narrow, found.box);
   const double until = std::min(open.times.to, open.times.from + to_seconds(tree_.a().duration()) +
                                                    to_seconds(tree_.b().duration()));
   const double t = 0.5 * (open.times.from + until);

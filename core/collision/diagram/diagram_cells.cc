@@ -34,7 +34,7 @@ void CoordinationDiagram::evaluate(std::span<const int> cells) {
 // the limit at the middle, the middle cannot be a conflict. Then no exact distance is computed, and
 // only the separating direction is tried.
 bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
-  const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
+  const NarrowPair pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
   const bool may_conflict = u.distance_m < u.limit_m;
   if (may_conflict) {

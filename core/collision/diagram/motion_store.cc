@@ -1,13 +1,63 @@
 #include "core/collision/diagram/motion_store.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/collision/diagram/tube_scratch.h"
 #include "core/collision/scene/arm_reach.h"
+#include "core/collision/scene/scene_bodies.h"
+#include "core/geometry/capsule/capsule_fit.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
+namespace {
+
+// Halves nodes down to this width.
+constexpr Duration kFinest = std::chrono::milliseconds(50);
+constexpr double kRounding_m = 1e-5;  // of the kernels, in float
+
+// Returns true if a ball may be closer than limit_m to what the motion sweeps in the node. Never
+// errs on the side of "far".
+bool sweeps_near(MotionTube& tube, int node, const std::vector<Ball>& balls, double limit_m) {
+  tube.place({&node, 1});
+  const MotionTube::Place at = tube.place_of(node);
+  const auto number = [&at](const std::vector<float>& of, std::size_t row) {
+    return static_cast<double>(of[row * filter::kLanes + at.lane]);
+  };
+  const auto& capsules = tube.kinematics().capsules();
+  bool is_near = false;
+  for (std::size_t c = 0; c < capsules.size() && !is_near; ++c) {
+    const auto point = [&](std::size_t row) {
+      return Eigen::Vector3d(number(at.block->capsules, 6 * c + row),
+                             number(at.block->capsules, 6 * c + row + 1),
+                             number(at.block->capsules, 6 * c + row + 2));
+    };
+    const Eigen::Vector3d center = point(0), half = point(3);
+    const LinkCapsule axis{center - half, center + half, 0.0};
+    const double keep_m = static_cast<double>(capsules[c].radius_up) +
+                          number(at.block->motion_bound, c) + limit_m + kRounding_m;
+    is_near = std::ranges::any_of(balls, [&](const Ball& ball) {
+      return distance_to_axis(axis, ball.center) < keep_m + ball.radius_m;
+    });
+  }
+  if (!is_near || tube.width(node) <= kFinest) return is_near;
+  const int child = tube.first_child(node);
+  return sweeps_near(tube, child, balls, limit_m) || sweeps_near(tube, child + 1, balls, limit_m);
+}
+
+}  // namespace
+
+struct MotionStore::Still {
+  explicit Still(PlanningScenePtr of)
+      : scene(std::move(of)),
+        tube(std::make_shared<MotionTube>(
+            std::make_shared<const ArmGeometry>(scene->bodies(), std::nullopt), nullptr,
+            scene->cell().home(), 0.0)) {}
+  PlanningScenePtr scene;
+  std::shared_ptr<MotionTube> tube;
+  std::map<ArmId, PairSet> pairs;  // built on first use
+};
 
 MotionStore::MotionStore(PlanningScenePtr scene)
     : scene_(scene), links_(std::move(scene)), scratch_{{}, TubePair::make_scratch()} {
@@ -17,7 +67,6 @@ MotionStore::MotionStore(PlanningScenePtr scene)
     scratch_.tubes.push_back(MotionTube::make_scratch(*arms_.back()));
   }
   entries_.resize(arms);
-  look_at_still();
 }
 
 void MotionStore::look_at(PlanningScenePtr scene) {
@@ -25,18 +74,19 @@ void MotionStore::look_at(PlanningScenePtr scene) {
     *this = MotionStore(std::move(scene));
     return;
   }
+  count();
   scene_ = std::move(scene);
-  look_at_still();
+  still_.reset();
 }
 
-void MotionStore::look_at_still() {
-  count();
-  for (const auto& [key, diagram] : diagrams_.with_still) bytes_ -= diagram.bytes;
-  diagrams_.with_still.clear();
-  pairs_.still.clear();
-  still_ = std::make_shared<MotionTube>(
-      std::make_shared<const ArmGeometry>(scene_->bodies(), std::nullopt), nullptr,
-      scene_->cell().home(), 0.0);
+void MotionStore::drop_old_still() {
+  std::vector<Key> old;
+  for (const auto& [key, diagram] : diagrams_.with_still) {
+    if (diagram.still != still_ && key.first->asked_at + kOldStillKept < question_) {
+      old.push_back(key);
+    }
+  }
+  for (const Key& key : old) drop(diagrams_.with_still, key);
 }
 
 void MotionStore::begin_question(CheckProgress* progress) {
@@ -50,6 +100,7 @@ void MotionStore::begin_question(CheckProgress* progress) {
     entries.resize(kKept);
   }
   while (bytes_ > kBytesKept) drop_oldest();
+  drop_old_still();
   ++question_;
 }
 
@@ -171,9 +222,9 @@ OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
   const auto kinematics = [&](ArmId arm) -> const ArmKinematics& {
     return arms_[arm.index()]->kinematics;
   };
-  auto pairs = pairs_.cross.find({a.arm, b.arm});
-  if (pairs == pairs_.cross.end()) {
-    pairs = pairs_.cross
+  auto pairs = cross_pairs_.find({a.arm, b.arm});
+  if (pairs == cross_pairs_.end()) {
+    pairs = cross_pairs_
                 .emplace(std::pair(a.arm, b.arm),
                          pairs_between(links_->bodies(), kinematics(a.arm), kinematics(b.arm)))
                 .first;
@@ -186,14 +237,46 @@ OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
 }
 
 OrientedDiagram MotionStore::with_still(const Entry& own) {
-  auto pairs = pairs_.still.find(own.arm);
-  if (pairs == pairs_.still.end()) {
-    pairs = pairs_.still
-                .emplace(own.arm, pairs_between(scene_->bodies(), own.tube->kinematics(),
-                                                still_->kinematics()))
+  const Key key{&own, &own};
+  const auto known = diagrams_.with_still.find(key);
+  if (known != diagrams_.with_still.end() && known->second.holds_in != scene_ &&
+      meets_change(own, *known->second.holds_in)) {
+    drop(diagrams_.with_still, key);
+  }
+  Diagram& made = diagrams_.with_still[key];
+  made.holds_in = scene_;
+  if (made.still == nullptr) {
+    if (still_ == nullptr) still_ = std::make_shared<Still>(scene_);
+    made.still = still_;
+  }
+  Still& still = *made.still;
+  auto pairs = still.pairs.find(own.arm);
+  if (pairs == still.pairs.end()) {
+    pairs = still.pairs
+                .emplace(own.arm, pairs_between(still.scene->bodies(), own.tube->kinematics(),
+                                                still.tube->kinematics()))
                 .first;
   }
-  return diagram(diagrams_.with_still, {&own, &own}, {*scene_, pairs->second, still_});
+  return diagram(diagrams_.with_still, key, {*still.scene, pairs->second, still.tube});
+}
+
+bool MotionStore::meets_change(const Entry& own, const PlanningScene& before) const {
+  std::vector<Fingerprint> changes;
+  std::ranges::set_symmetric_difference(before.fingerprint().objects[own.arm.index()],
+                                        scene_->fingerprint().objects[own.arm.index()],
+                                        std::back_inserter(changes));
+  if (changes.size() > kFewChanges) return true;
+  std::vector<Ball> balls;
+  for (const PlanningScene* scene : {&before, scene_.get()}) {
+    const PlanningScene::Bodies& of = scene->bodies();
+    for (std::size_t i = of.held_end; i < of.bodies.size(); ++i) {
+      const CollisionBody& object = of.bodies[i];
+      if (!std::ranges::binary_search(changes, object.content)) continue;
+      balls.push_back({object.X_CP * object.sphere.p_PC, object.sphere.radius_m});
+    }
+  }
+  const double limit_m = std::max(scene_->cell().clearances.clearance_m, kTouching_m);
+  return !balls.empty() && sweeps_near(*own.tube, TimeTree::root(), balls, limit_m);
 }
 
 OrientedDiagram MotionStore::with_itself(const Entry& own) {

@@ -15,7 +15,9 @@ namespace armloom {
 
 // Keeps the tubes of motions and of arms at rest, and the diagrams of these tubes, while questions
 // use them. If only the objects of the scene change, diagrams of two arms and of an arm with itself
-// are kept. Not thread-safe.
+// are kept. The diagram of a motion with the static bodies is kept, too, if no object that is new,
+// changed or gone is near what the motion sweeps. So a check after a change of the scene costs what
+// meets the change. Not thread-safe.
 class MotionStore {
  public:
   explicit MotionStore(PlanningScenePtr scene);
@@ -43,6 +45,11 @@ class MotionStore {
   inline static constexpr std::size_t kKept = 64;
   // Memory limit when a question begins; the least recently used entries are dropped first.
   inline static constexpr std::size_t kBytesKept = std::size_t{192} << 20;
+  // A diagram that refers to the static bodies of an earlier scene is dropped if so many questions
+  // did not use it.
+  inline static constexpr std::uint64_t kOldStillKept = 8;
+  // If more objects differ between two scenes, diagrams with static bodies are made again.
+  inline static constexpr std::size_t kFewChanges = 64;
   // `progress`: null, or an object that outlives the question.
   void begin_question(CheckProgress* progress = nullptr);
   // Announces how many cells the check may evaluate.
@@ -65,9 +72,12 @@ class MotionStore {
  private:
   // Two arms. For an arm alone, both are the same entry.
   using Key = std::pair<const Entry*, const Entry*>;
+  struct Still;  // the static bodies of a scene
   struct Diagram {
     std::unique_ptr<CoordinationDiagram> cells;
-    std::size_t bytes = 0;  // as last counted
+    std::size_t bytes = 0;              // as last counted
+    std::shared_ptr<Still> still = {};  // with_still only: what the diagram refers to
+    PlanningScenePtr holds_in = {};     // with_still only: the last scene in which it was used
   };
   using Diagrams = std::map<Key, Diagram>;
   struct Comparison {
@@ -77,7 +87,9 @@ class MotionStore {
     bool turned = false;
   };
   [[nodiscard]] OrientedDiagram diagram(Diagrams& of, const Key& key, const Comparison& made);
-  void look_at_still();
+  // Returns true if an object that differs between the two scenes may be near the motion.
+  [[nodiscard]] bool meets_change(const Entry& own, const PlanningScene& before) const;
+  void drop_old_still();
   void drop(const Entry& entry);
   void drop(Diagrams& of, const Key& key);
   void drop_oldest();
@@ -91,12 +103,8 @@ class MotionStore {
     std::shared_ptr<TubePair::Scratch> pair;
   };
   Scratch scratch_;
-  std::shared_ptr<MotionTube> still_;
-  struct Pairs {
-    std::map<std::pair<ArmId, ArmId>, PairSet> cross;
-    std::map<ArmId, PairSet> still;  // built on first use
-  };
-  Pairs pairs_;
+  std::shared_ptr<Still> still_;                              // of scene_; built on first use
+  std::map<std::pair<ArmId, ArmId>, PairSet> cross_pairs_;    // built on first use
   std::vector<std::vector<std::unique_ptr<Entry>>> entries_;  // by arm
   struct Kept {
     Diagrams between, with_still, with_itself;

@@ -88,7 +88,7 @@ OrientedDiagram OrientedDiagram::parting_at(Duration now_a, Duration now_b) cons
   const std::vector<TubePair::PairDistance> close = cells_->pair().too_close_at(now_a, now_b);
   if (close.empty()) return {};
   auto parting = std::make_shared<Parting>(Parting{*setting_.pairs, std::nullopt});
-  parting->pairs.set_limits([&](const NarrowPair& pair) {
+  parting->pairs.set_each_limit([&](const NarrowPair& pair) {
     const auto found = std::ranges::find(close, pair.pair, &TubePair::PairDistance::pair);
     return found == close.end() ? pair.limit_m : std::max(kPartingShare * found->distance_m, 1e-9);
   });
@@ -100,13 +100,13 @@ OrientedDiagram OrientedDiagram::parting_at(Duration now_a, Duration now_b) cons
 }
 
 void OrientedDiagram::lower(ClearanceBound& bound) const {
-  for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
-    for (const NarrowPair& pair : *pairs) {
-      const bool self = setting_.bodies->group_of(pair.pair).kind == PairGroup::Kind::self;
-      double& least_m = self ? bound.self_m : bound.apart_m;
-      least_m = std::min(least_m, pair.limit_m);
-    }
-  }
+  const auto look = [&](const NarrowPair& pair) {
+    const bool self = setting_.bodies->group_of(pair.pair).kind == PairGroup::Kind::self;
+    double& least_m = self ? bound.self_m : bound.apart_m;
+    least_m = std::min(least_m, pair.limit_m);
+  };
+  std::ranges::for_each(setting_.pairs->narrow, look);
+  setting_.pairs->each_boxed(look);
 }
 
 }  // namespace armloom

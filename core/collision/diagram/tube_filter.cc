@@ -159,8 +159,7 @@ void TubePair::filter(std::span<const Nodes> batch) {
   const unsigned lanes = (1U << batch.size()) - 1U;
   const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.pairs.of.data());
   s.pairs.count = left_open(lanes, found);
-  s.boxes.count = kernel.near_boxes(a.side, set.boxes.data(), static_cast<int>(set.boxes.size()),
-                                    lanes, s.boxes.of.data());
+  s.boxes.count = kernel.near_boxes(a.side, set.all_boxes(), lanes, s.boxes.of.data());
 }
 
 double TubePair::slack_m(const NarrowPair& pair) const {
@@ -178,7 +177,7 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
   constexpr double kTowardsShare = 0.25;
   const auto add = [&](int entry, bool box, double distance_m, double moves_a_m,
                        double moves_m) -> Undecided& {
-    const NarrowPair& pair = narrow(entry, box);
+    const NarrowPair pair = narrow(entry, box);
     const double short_m = pair.limit_m + kTowardsShare * moves_m - std::max(distance_m, 0.0);
     return s.undecided.emplace_back(Undecided{entry, box, distance_m, moves_a_m,
                                               moves_m - moves_a_m, pair.limit_m, slack_m(pair),
@@ -208,8 +207,9 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
     open.towards_b_m = static_cast<double>(parted.towards[1]);
   });
   of_lane(s.boxes, [&](std::size_t, const filter::Hit& hit) {
-    const int row = set.boxes[static_cast<std::size_t>(hit.pair)].row_a;
-    add(hit.pair, true, hit.distance[lane], moves_a_m(row), hit.motion_bound[lane]);
+    const int row = set.boxed[static_cast<std::size_t>(hit.capsule)].row;
+    const int entry = hit.pair * static_cast<int>(set.boxed.size()) + hit.capsule;
+    add(entry, true, hit.distance[lane], moves_a_m(row), hit.motion_bound[lane]);
   });
   return s.undecided;
 }

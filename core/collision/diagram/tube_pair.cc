@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/collision/diagram/body_sweep.h"
 #include "core/collision/diagram/tube_scratch.h"
@@ -30,16 +32,17 @@ TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_p
   const auto make_room = [](auto& of, std::size_t size) { of.resize(std::max(of.size(), size)); };
   make_room(s.pairs.of, setting_.pairs->pairs.size() + 1);
   make_room(s.parted, setting_.pairs->pairs.size() + 1);
-  make_room(s.boxes.of, setting_.pairs->boxes.size() + 1);
+  make_room(s.boxes.of, setting_.pairs->box_hits_max() + 1);
   make_room(s.state.frames_a, a_->kinematics().frames().size() * 12);
   make_room(s.state.frames_b, b_->kinematics().frames().size() * 12);
   make_room(s.state.q,
             std::max(a_->kinematics().joints().size(), b_->kinematics().joints().size()));
 }
 
-const NarrowPair& TubePair::narrow(int entry, bool box) const {
-  const auto i = static_cast<std::size_t>(entry);
-  return box ? setting_.pairs->narrow_boxes[i] : setting_.pairs->narrow[i];
+NarrowPair TubePair::narrow(int entry, bool box) const {
+  if (!box) return setting_.pairs->narrow[static_cast<std::size_t>(entry)];
+  const auto capsules = static_cast<int>(setting_.pairs->boxed.size());
+  return setting_.pairs->narrow_of(entry / capsules, entry % capsules);
 }
 
 const KinematicBody& TubePair::body_a(const NarrowPair& pair) const {
@@ -107,26 +110,26 @@ double TubePair::placed_distance(const NarrowPair& pair, double limit_m) const {
 std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Duration time_b) {
   place(time_a, time_b);
   std::vector<PairDistance> close;
-  for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
-    for (std::size_t i = 0; i < pairs->size(); ++i) {
-      const NarrowPair& pair = (*pairs)[i];
-      if (i > 0 && pair.pair == (*pairs)[i - 1].pair) continue;  // another capsule of this pair
-      const double distance_m = placed_distance(pair, pair.limit_m);
-      if (distance_m < pair.limit_m) close.push_back({pair.pair, distance_m});
-    }
-  }
+  std::optional<PairId> last;
+  const auto look = [&](const NarrowPair& pair) {
+    if (std::exchange(last, pair.pair) == pair.pair) return;  // another capsule of this pair
+    const double distance_m = placed_distance(pair, pair.limit_m);
+    if (distance_m < pair.limit_m) close.push_back({pair.pair, distance_m});
+  };
+  std::ranges::for_each(setting_.pairs->narrow, look);
+  setting_.pairs->each_boxed(look);
   return close;
 }
 
 TubePair::PairDistance TubePair::closest_at(Duration time_a, Duration time_b) {
   place(time_a, time_b);
   PairDistance closest{PairId{0}, std::numeric_limits<double>::infinity()};
-  for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
-    for (const NarrowPair& pair : *pairs) {
-      const double distance_m = placed_distance(pair, closest.distance_m);
-      if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
-    }
-  }
+  const auto look = [&](const NarrowPair& pair) {
+    const double distance_m = placed_distance(pair, closest.distance_m);
+    if (distance_m < closest.distance_m) closest = {pair.pair, distance_m};
+  };
+  std::ranges::for_each(setting_.pairs->narrow, look);
+  setting_.pairs->each_boxed(look);
   return closest;
 }
 

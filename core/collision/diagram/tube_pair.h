@@ -41,7 +41,7 @@ class TubePair {
   };
   // A pair of capsules that the filter leaves undecided in a cell.
   struct Undecided {
-    int narrow;  // index in PairSet::narrow, or in narrow_boxes if `box`
+    int narrow;  // index in PairSet::narrow, or of a capsule of a static box if `box`
     bool box;
     double distance_m;  // lower bound of the distance at the middle
     double moves_a_m;   // bound of the motion of a within the cell
@@ -67,7 +67,7 @@ class TubePair {
   // that are undecided in cell i of the batch.
   void filter(std::span<const Nodes> batch);
   [[nodiscard]] std::vector<Undecided>& undecided(std::size_t of_batch);
-  [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
+  [[nodiscard]] NarrowPair narrow(int entry, bool box) const;
 
   // Returns min(exact distance at the middle of both nodes, limit_m).
   [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m,

@@ -80,7 +80,7 @@ inline constexpr int kSweep = 7;
 struct Side {
   const float* capsules;      // Placed::capsules
   const float* motion_bound;  // [row][kLanes], m; null for both sides if nothing moves
-  const float* ball;  // [4][kLanes], from Kernel::enclose: center, radius; only for pairs in groups
+  const float* ball;  // [4][kLanes], from Kernel::enclose: center, radius; for groups and boxes
 };
 
 // A capsule in one configuration, and its sweeps in consecutive stretches of a motion. Each stretch
@@ -138,21 +138,35 @@ struct Pairs {
   Groups groups;
 };
 
-// A capsule against a static box.
-struct BoxPair {
-  int a;
-  int row_a;
+// A capsule that is compared with static boxes. `row`: of Side::motion_bound.
+struct BoxedCapsule {
+  int capsule;
+  int row;
+  float radius_up;
+};
+// A static box, and the capsules that are compared with it.
+struct StaticBox {
   float R[9];  // rows: the box's axes in the world
   float center[3];
   float half_up[3];
-  float limit_up;
-  float radius_up;  // of the capsule, with the rounding margin
+  float ball_up;    // radius of the ball around the box, with the rounding margin
+  float margin_up;  // the rounding margin
+  float limit_up;   // required distance
+  int begin;        // range in Boxes::capsules
+  int end;
+};
+// A box is skipped if the ball around the first side (Side::ball) is not near the box.
+struct Boxes {
+  const StaticBox* all;
+  int count;
+  const BoxedCapsule* capsules;
 };
 
 // A pair that is undecided in some lanes. distance: lower bound at the configuration. motion_bound:
 // largest decrease of the distance by motion.
 struct Hit {
-  int pair;
+  int pair;        // index in Pairs::all or Boxes::all
+  int capsule;     // near_boxes only: index in Boxes::capsules
   unsigned lanes;  // bit by lane
   float distance[kLanes];
   float motion_bound[kLanes];
@@ -180,7 +194,8 @@ struct Kernel {
   int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
   // Bounds the distance of two swept capsules, for each stretch of `a` with each stretch of `b`.
   Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair);
-  int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
+  // Likewise for capsules and static boxes. `hits` must have room for all capsules of all boxes.
+  int (*near_boxes)(const Side& a, const Boxes& boxes, unsigned lanes, Hit* hits);
 };
 
 extern const Kernel kScalarKernel;  // one lane after the other; the reference for the other kernels
@@ -188,7 +203,8 @@ extern const Kernel kBaselineKernel;  // SSE2, which every x86-64 has
 extern const Kernel kAvx2Kernel;
 
 // Returns the rounding margin of near_pairs and near_boxes (m) if no coordinate exceeds `extent_m`.
-// The margin is part of Pair::radii_up and BoxPair::radius_up.
+// The margin is part of Pair::radii_up. StaticBox::margin_up has one rounding more, of its sum with
+// the radius.
 // With u = 2^-24, a center or end of an axis is rounded once, to within sqrt(3) u extent.
 // Differences, products with a unit vector (off by 4 u) and sums of at most 2 sqrt(3) extent are
 // also rounded. Together these are at most 16 such roundings.

@@ -219,38 +219,63 @@ int near_pairs(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes,
   return near_pairs_of<F, true>(a, b, pairs, lanes, hits);
 }
 
+// Returns true if the box may be too close to the ball around a side.
+template <class F>
+inline bool near_ball(const Side& side, const StaticBox& box) {
+  if (side.ball == nullptr) return true;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = {F::load(side.ball + l) - F::all(box.center[0]),
+                      F::load(side.ball + kLanes + l) - F::all(box.center[1]),
+                      F::load(side.ball + 2 * kLanes + l) - F::all(box.center[2])};
+    const F reach = (F::load(side.ball + 3 * kLanes + l) + F::all(box.ball_up + box.limit_up)) *
+                    F::all(1.00001F);
+    near |= F::not_at_least(dot(w, w), reach * reach);
+  }
+  return near != 0;
+}
+
 // Compares a capsule with a box by the largest gap along the box's axes. This gap is a lower bound
 // of the distance; in front of a face, it is exact.
 template <class F>
-int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits) {
-  int found = 0;
-  for (int p = 0; p < count; ++p) {
-    const BoxPair& pair = pairs[p];
-    const float* at = a.capsules + pair.a * 6 * kLanes;
-    Hit& hit = hits[found];
-    unsigned near = 0;
-    for (int l = 0; l < kLanes; l += F::kLanes) {
-      Vec<F> w = Vec<F>::load(at + l);
-      w = {w.x - F::all(pair.center[0]), w.y - F::all(pair.center[1]),
-           w.z - F::all(pair.center[2])};
-      const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
-      F gap = F::all(-1e9F);
-      for (int i = 0; i < 3; ++i) {
-        const Vec<F> axis = {F::all(pair.R[3 * i]), F::all(pair.R[3 * i + 1]),
-                             F::all(pair.R[3 * i + 2])};
-        gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(pair.half_up[i]));
-      }
-      const F motion_bound = a.motion_bound == nullptr
-                                 ? F::all(0.0F)
-                                 : F::load(a.motion_bound + pair.row_a * kLanes + l);
-      const F distance = gap - F::all(pair.radius_up);
-      near |= F::not_at_least(distance, F::all(pair.limit_up) + motion_bound) << l;
-      distance.store(hit.distance + l);
-      motion_bound.store(hit.motion_bound + l);
+inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const StaticBox& box,
+                         Hit& hit) {
+  const float* at = a.capsules + capsule.capsule * 6 * kLanes;
+  unsigned near = 0;
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    Vec<F> w = Vec<F>::load(at + l);
+    w = {w.x - F::all(box.center[0]), w.y - F::all(box.center[1]), w.z - F::all(box.center[2])};
+    const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
+    F gap = F::all(-1e9F);
+    for (int i = 0; i < 3; ++i) {
+      const Vec<F> axis = {F::all(box.R[3 * i]), F::all(box.R[3 * i + 1]),
+                           F::all(box.R[3 * i + 2])};
+      gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(box.half_up[i]));
     }
-    hit.pair = p;
-    hit.lanes = near & lanes;
-    found += hit.lanes != 0 ? 1 : 0;
+    const F motion_bound = a.motion_bound == nullptr
+                               ? F::all(0.0F)
+                               : F::load(a.motion_bound + capsule.row * kLanes + l);
+    const F distance = gap - F::all(capsule.radius_up + box.margin_up);
+    near |= F::not_at_least(distance, F::all(box.limit_up) + motion_bound) << l;
+    distance.store(hit.distance + l);
+    motion_bound.store(hit.motion_bound + l);
+  }
+  return near;
+}
+
+template <class F>
+int near_boxes(const Side& a, const Boxes& boxes, unsigned lanes, Hit* hits) {
+  int found = 0;
+  for (int b = 0; b < boxes.count; ++b) {
+    const StaticBox& box = boxes.all[b];
+    if (!near_ball<F>(a, box)) continue;
+    for (int c = box.begin; c < box.end; ++c) {
+      Hit& hit = hits[found];
+      hit.pair = b;
+      hit.capsule = c;
+      hit.lanes = near_box<F>(a, boxes.capsules[c], box, hit) & lanes;
+      found += hit.lanes != 0 ? 1 : 0;
+    }
   }
   return found;
 }

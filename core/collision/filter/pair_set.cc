@@ -1,9 +1,10 @@
 #include "core/collision/filter/pair_set.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "core/model/kinematics.h"
 
@@ -21,9 +22,11 @@ double extent_of(const KinematicBody& body, const ArmKinematics& still) {
   return extent_m;
 }
 
-int index_of(const std::vector<KinematicBody>& bodies, std::size_t body) {
-  const auto found = std::ranges::find(bodies, body, &KinematicBody::body);
-  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+// Returns, by index in PlanningScene::Bodies::bodies, the index in ArmKinematics::bodies(), or -1.
+std::vector<int> indices_of(const std::vector<KinematicBody>& own, std::size_t bodies) {
+  std::vector<int> indices(bodies, -1);
+  for (std::size_t i = 0; i < own.size(); ++i) indices[own[i].body] = static_cast<int>(i);
+  return indices;
 }
 
 double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
@@ -51,26 +54,77 @@ void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
   }
 }
 
-struct StandingBox {
-  const ConvexShape& box;
-  Eigen::Isometry3d X_WS;
-};
-void add_boxes(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a, const StandingBox& b,
-               double margin_m) {
-  for (int i = a.begin(); i < a.end(); ++i) {
-    filter::BoxPair pair{};
-    pair.a = pair.row_a = i;
-    for (int k = 0; k < 3; ++k) {
-      for (int c = 0; c < 3; ++c) pair.R[3 * k + c] = static_cast<float>(b.X_WS.linear()(c, k));
-      pair.center[k] = static_cast<float>(b.X_WS.translation()[k]);
-      pair.half_up[k] = round_up(b.box.half_size_m[k]);
-    }
-    pair.limit_up = round_up(narrow.limit_m);
-    pair.radius_up = round_up(static_cast<double>(a[i].radius_up) + margin_m);
-    set.boxes.push_back(pair);
-    set.narrow_boxes.push_back(narrow);
+// Returns the pair, or where it would be in the group.
+PairId pair_of(const PlanningScene::Bodies& bodies, const PairGroup& group, const BodyPair& pair) {
+  const auto key = [](const BodyPair& p) { return std::pair(p.a, p.b); };
+  const auto begin = bodies.pairs.begin();
+  const auto found = std::ranges::lower_bound(
+      begin + static_cast<std::ptrdiff_t>(group.pairs_begin),
+      begin + static_cast<std::ptrdiff_t>(group.pairs_end), key(pair), {}, key);
+  return PairId{static_cast<std::uint32_t>(found - begin)};
+}
+
+// Appends the body's capsules to `boxed`.
+void add_boxed(PairSet& set, const ArmKinematics& arm, std::size_t body) {
+  const KinematicBody& own = arm.bodies()[body];
+  for (int c = own.capsules_begin; c < own.capsules_end; ++c) {
+    set.boxed.push_back({c, c, arm.capsules()[static_cast<std::size_t>(c)].radius_up});
+    set.body_of_boxed.push_back({static_cast<int>(body), own.body});
   }
 }
+
+filter::StaticBox static_box(const ConvexShape& box, const Eigen::Isometry3d& X_WS,
+                             double margin_m) {
+  filter::StaticBox result{};
+  for (int k = 0; k < 3; ++k) {
+    for (int c = 0; c < 3; ++c) result.R[3 * k + c] = static_cast<float>(X_WS.linear()(c, k));
+    result.center[k] = static_cast<float>(X_WS.translation()[k]);
+    result.half_up[k] = round_up(box.half_size_m[k]);
+  }
+  result.margin_up = round_up(margin_m * (17.0 / 16.0));
+  result.ball_up = round_up(box.half_size_m.norm() * (1.0 + 1e-6) + margin_m + 1e-6);
+  return result;
+}
+
+// Adds the static boxes of a group.
+class AddBoxes {
+ public:
+  AddBoxes(PairSet& set, const ArmKinematics& a, const ArmKinematics& b) : set_(set), a_(a), b_(b) {
+    for (std::size_t body = 0; body < a.bodies().size(); ++body) add_boxed(set, a, body);
+    all_ = static_cast<int>(set.boxed.size());
+  }
+
+  // `bodies_of_a`: the number of bodies of a that are compared with the box.
+  void add(const NarrowBox& narrow, const ConvexShape& box, double margin_m,
+           std::size_t bodies_of_a) {
+    const KinematicBody& body_b = b_.bodies()[static_cast<std::size_t>(narrow.body_b)];
+    filter::StaticBox entry = static_box(box, body_b.X_FP * box.X_PS, margin_m);
+    entry.end = all_;
+    if (bodies_of_a < a_.bodies().size()) {
+      entry.begin = static_cast<int>(set_.boxed.size());
+      const PairGroup& group = set_.bodies->groups[narrow.group];
+      for (std::size_t body = 0; body < a_.bodies().size(); ++body) {
+        const std::size_t index = a_.bodies()[body].body;
+        const PairId pair = pair_of(*set_.bodies, group, {index, body_b.body});
+        if (pair.index() < group.pairs_end && set_.bodies->pairs[pair.index()].a == index &&
+            set_.bodies->pairs[pair.index()].b == body_b.body) {
+          add_boxed(set_, a_, body);
+        }
+      }
+      entry.end = static_cast<int>(set_.boxed.size());
+    }
+    entry.limit_up = round_up(narrow.limit_m);
+    set_.boxes.push_back(entry);
+    set_.narrow_boxes.push_back(narrow);
+    set_.body_of_box.push_back(body_b.body);
+  }
+
+ private:
+  PairSet& set_;
+  const ArmKinematics& a_;
+  const ArmKinematics& b_;
+  int all_ = 0;  // the first entries of `boxed`: all capsules of a
+};
 
 // Groups the pairs by their capsule of one side: of the second side if `of_second`, else of the
 // first.
@@ -82,12 +136,13 @@ void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_s
   std::vector<std::size_t> order(set.pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return capsule_of(set.pairs[i]); });
-  const PairSet unsorted = set;
+  const std::vector<filter::Pair> pairs = set.pairs;
+  const std::vector<NarrowPair> narrow = set.narrow;
   set.groups.clear();
   set.groups_of_second = of_second;
   for (std::size_t at = 0; at < order.size(); ++at) {
-    const filter::Pair& pair = set.pairs[at] = unsorted.pairs[order[at]];
-    set.narrow[at] = unsorted.narrow[order[at]];
+    const filter::Pair& pair = set.pairs[at] = pairs[order[at]];
+    set.narrow[at] = narrow[order[at]];
     const int capsule = capsule_of(pair);
     const int begin = static_cast<int>(at);
     if (set.groups.empty() || set.groups.back().capsule != capsule) {
@@ -113,6 +168,63 @@ void add_others(PairSet& set, const std::vector<filter::Capsule>& capsules, doub
 }
 
 }  // namespace
+
+std::size_t PairSet::box_hits_max() const {
+  std::size_t most = 0;
+  for (const filter::StaticBox& box : boxes) most += static_cast<std::size_t>(box.end - box.begin);
+  return most;
+}
+
+NarrowPair PairSet::narrow_of(int box, int boxed_capsule) const {
+  const NarrowBox& of = narrow_boxes[static_cast<std::size_t>(box)];
+  const BoxedBody& a = body_of_boxed[static_cast<std::size_t>(boxed_capsule)];
+  const PairId pair = pair_of(*bodies, bodies->groups[of.group],
+                              {a.body, body_of_box[static_cast<std::size_t>(box)]});
+  return {pair, a.body_a, of.body_b, of.limit_m};
+}
+
+void PairSet::set_limits(const PairLimits& limits) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    narrow[i].limit_m = bodies->group_of(narrow[i].pair).limit_m(limits);
+    pairs[i].limit_up = round_up(narrow[i].limit_m);
+  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    narrow_boxes[i].limit_m = bodies->groups[narrow_boxes[i].group].limit_m(limits);
+    boxes[i].limit_up = round_up(narrow_boxes[i].limit_m);
+  }
+  limits_changed();
+}
+
+void PairSet::set_each_limit(const std::function<double(const NarrowPair&)>& limit_m) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    narrow[i].limit_m = limit_m(narrow[i]);
+    pairs[i].limit_up = round_up(narrow[i].limit_m);
+  }
+  const std::size_t count = boxes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const filter::StaticBox whole = boxes[i];
+    for (int c = whole.begin, end = c; c < whole.end; c = end) {
+      const double limit = limit_m(narrow_of(static_cast<int>(i), c));
+      for (end = c + 1; end < whole.end; ++end) {
+        const bool is_same_body = body_of_boxed[static_cast<std::size_t>(end)].body ==
+                                  body_of_boxed[static_cast<std::size_t>(end) - 1].body;
+        if (!is_same_body && limit_m(narrow_of(static_cast<int>(i), end)) != limit) break;
+      }
+      std::size_t entry = i;
+      if (c > whole.begin) {
+        entry = boxes.size();
+        boxes.push_back(whole);
+        narrow_boxes.push_back(narrow_boxes[i]);
+        body_of_box.push_back(body_of_box[i]);
+      }
+      boxes[entry].begin = c;
+      boxes[entry].end = end;
+      boxes[entry].limit_up = round_up(limit);
+      narrow_boxes[entry].limit_m = limit;
+    }
+  }
+  limits_changed();
+}
 
 void PairSet::limits_changed() {
   for (filter::Group& group : groups) {
@@ -142,25 +254,40 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
   const bool self = b.arm() == a.arm();
   double margin_m = 0.0;
   PairSet set;
-  for (const PairGroup& group : bodies.groups) {
+  set.bodies = &bodies;
+  const std::vector<int> index_in_a = indices_of(a.bodies(), bodies.bodies.size());
+  const std::vector<int> index_in_b = indices_of(b.bodies(), bodies.bodies.size());
+  std::optional<AddBoxes> add_boxes;
+  for (std::size_t g = 0; g < bodies.groups.size(); ++g) {
+    const PairGroup& group = bodies.groups[g];
     if (group.arm != *a.arm() || group.other != (self ? std::nullopt : b.arm())) continue;
+    const double limit_m = limit_of(bodies, group);
+    std::vector<std::size_t> boxed(bodies.bodies.size());  // by body: pairs of this box
     for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
       const BodyPair& pair = bodies.pairs[i];
-      const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_of(a.bodies(), pair.a),
-                              index_of(b.bodies(), pair.b), limit_of(bodies, group)};
+      const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_in_a[pair.a],
+                              index_in_b[pair.b], limit_m};
       if (narrow.body_b < 0) continue;  // a group of another kind: body b is not in `b`
+      if (!b.arm() && bodies.bodies[pair.b].lone_box) {
+        ++boxed[pair.b];
+        continue;
+      }
       const KinematicBody& body_a = a.bodies()[static_cast<std::size_t>(narrow.body_a)];
       const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(narrow.body_b)];
       const double extent_m = std::max(a.extent_m(), b.arm() ? b.extent_m() : extent_of(body_b, b));
       const auto of_pair_m = static_cast<double>(filter::rounding_margin(extent_m));
       margin_m = std::max(margin_m, of_pair_m);
-      const CollisionBody& other = bodies.bodies[pair.b];
-      if (!b.arm() && other.lone_box) {
-        const ConvexShape& box = bodies.shapes[other.shapes_begin];
-        add_boxes(set, narrow, {body_a, a.capsules()}, {box, body_b.X_FP * box.X_PS}, of_pair_m);
-      } else {
-        add_capsules(set, narrow, {body_a, a.capsules()}, {body_b, b.capsules()}, of_pair_m);
-      }
+      add_capsules(set, narrow, {body_a, a.capsules()}, {body_b, b.capsules()}, of_pair_m);
+    }
+    for (std::size_t body = 0; body < boxed.size(); ++body) {
+      if (boxed[body] == 0) continue;
+      if (!add_boxes) add_boxes.emplace(set, a, b);
+      const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(index_in_b[body])];
+      const double extent_m = std::max(a.extent_m(), extent_of(body_b, b));
+      const auto of_box_m = static_cast<double>(filter::rounding_margin(extent_m));
+      margin_m = std::max(margin_m, of_box_m);
+      add_boxes->add({g, index_in_b[body], limit_m},
+                     bodies.shapes[bodies.bodies[body].shapes_begin], of_box_m, boxed[body]);
     }
   }
   if (self) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/collision/filter/arm_kinematics.h"
@@ -16,37 +18,60 @@ struct NarrowPair {
   double limit_m;
 };
 
+// A static box, with the pairs of capsules that StaticBox::begin and end name.
+struct NarrowBox {
+  std::size_t group;  // index in PlanningScene::Bodies::groups
+  int body_b;         // index in ArmKinematics::bodies() of the second side
+  double limit_m;
+};
+
 // The pairs of one comparison of two sides. The filter (broad phase) compares `pairs` and `boxes`;
-// exact distances (narrow phase) are computed for `narrow` and `narrow_boxes`. Entry i of `pairs`
-// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
+// exact distances (narrow phase) are computed for `narrow` and narrow_of(). Entry i of `pairs`
+// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i]. A static box is one entry for all
+// capsules, so that thousands of boxes are cheap to keep and to skip.
 struct PairSet {
+  const PlanningScene::Bodies* bodies = nullptr;  // outlives this object
   std::vector<filter::Pair> pairs;
   std::vector<NarrowPair> narrow;
-  std::vector<filter::BoxPair> boxes;
-  std::vector<NarrowPair> narrow_boxes;
-  std::vector<filter::Group> groups;  // `pairs`, grouped by a capsule of one side
-  bool groups_of_second = false;      // that side is the second
-  std::vector<filter::Group> others;  // see filter::Groups::others
-  float limit_up = 0.0F;              // largest limit of `pairs`
+  std::vector<filter::StaticBox> boxes;
+  std::vector<NarrowBox> narrow_boxes;
+  std::vector<filter::BoxedCapsule> boxed;
+  struct BoxedBody {
+    int body_a;        // index in ArmKinematics::bodies() of the first side
+    std::size_t body;  // index in PlanningScene::Bodies::bodies
+  };
+  std::vector<BoxedBody> body_of_boxed;  // by entry of `boxed`
+  std::vector<std::size_t> body_of_box;  // by entry of `boxes`, as in BoxedBody::body
+  std::vector<filter::Group> groups;     // `pairs`, grouped by a capsule of one side
+  bool groups_of_second = false;         // that side is the second
+  std::vector<filter::Group> others;     // see filter::Groups::others
+  float limit_up = 0.0F;                 // largest limit of `pairs`
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
+  // Returns the largest number of hits that the filter can find.
+  [[nodiscard]] std::size_t hits_max() const { return std::max(pairs.size(), box_hits_max()); }
+  [[nodiscard]] std::size_t box_hits_max() const;
+  [[nodiscard]] filter::Boxes all_boxes() const {
+    return {boxes.data(), static_cast<int>(boxes.size()), boxed.data()};
+  }
+  [[nodiscard]] NarrowPair narrow_of(int box, int boxed_capsule) const;
+  // Calls visit(pair) for each capsule of each static box, in the order of `boxes`.
+  template <class Visit>
+  void each_boxed(const Visit& visit) const {
+    for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
+      const filter::StaticBox& box = boxes[static_cast<std::size_t>(b)];
+      for (int c = box.begin; c < box.end; ++c) visit(narrow_of(b, c));
+    }
+  }
   // Return the pairs for the filter. With grouped(), the filter may skip whole groups; with
   // ungrouped(), it compares every pair.
   [[nodiscard]] filter::Pairs grouped() const;
   [[nodiscard]] filter::Pairs ungrouped() const;
-  // Sets the limit of each pair to limit_m(pair).
-  template <class Limit>
-  void set_limits(const Limit& limit_m) {
-    const auto set_all = [&](auto& entries, std::vector<NarrowPair>& of) {
-      for (std::size_t i = 0; i < entries.size(); ++i) {
-        of[i].limit_m = limit_m(of[i]);
-        entries[i].limit_up = round_up(of[i].limit_m);
-      }
-    };
-    set_all(pairs, narrow);
-    set_all(boxes, narrow_boxes);
-    limits_changed();
-  }
+  // Sets the limit of each pair to that of its group.
+  void set_limits(const PairLimits& limits);
+  // Sets the limit of each pair to limit_m(pair). Boxes whose pairs have different limits become
+  // several entries.
+  void set_each_limit(const std::function<double(const NarrowPair&)>& limit_m);
   void limits_changed();
 };
 

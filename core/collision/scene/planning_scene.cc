@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/collision/scene/arm_reach.h"
@@ -14,24 +16,38 @@
 namespace armloom {
 namespace {
 
-// Sets the body's bounding sphere, centered in the common bounding box of its shapes.
-void bound(const std::vector<ConvexShape>& shapes, CollisionBody& body) {
+auto at(const std::vector<ConvexShape>& shapes, std::size_t index) {
+  return shapes.begin() + static_cast<std::ptrdiff_t>(index);
+}
+
+// Returns the bounding sphere of shapes, centered in their common bounding box.
+CollisionBody::BoundingSphere bound(const std::vector<ConvexShape>& shapes) {
   Eigen::AlignedBox3d box;
-  for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
-    const Eigen::Vector3d p = shapes[i].X_PS.translation();
-    const Eigen::Vector3d half =
-        shapes[i].X_PS.linear().col(2).cwiseAbs() * shapes[i].half_length_m +
-        Eigen::Vector3d::Constant(shapes[i].radius_m);
+  for (const ConvexShape& shape : shapes) {
+    const Eigen::Vector3d p = shape.X_PS.translation();
+    const Eigen::Vector3d half = shape.X_PS.linear().col(2).cwiseAbs() * shape.half_length_m +
+                                 Eigen::Vector3d::Constant(shape.radius_m);
     box.extend(p - half);
     box.extend(p + half);
   }
-  body.sphere.p_PC = box.center();
-  for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
-    const Eigen::Vector3d p = shapes[i].X_PS.translation() - body.sphere.p_PC;
-    const Eigen::Vector3d half = shapes[i].X_PS.linear().col(2) * shapes[i].half_length_m;
+  CollisionBody::BoundingSphere sphere{box.center(), 0.0};
+  for (const ConvexShape& shape : shapes) {
+    const Eigen::Vector3d p = shape.X_PS.translation() - sphere.p_PC;
+    const Eigen::Vector3d half = shape.X_PS.linear().col(2) * shape.half_length_m;
     const double ends = std::max((p + half).norm(), (p - half).norm());
-    body.sphere.radius_m = std::max(body.sphere.radius_m, ends + shapes[i].radius_m);
+    sphere.radius_m = std::max(sphere.radius_m, ends + shape.radius_m);
   }
+  return sphere;
+}
+
+void add_body(PlanningScene::Bodies& scene, CollisionBody body) {
+  body.has_pieces =
+      std::any_of(at(scene.shapes, body.shapes_begin), at(scene.shapes, body.shapes_end),
+                  [](const ConvexShape& shape) { return shape.is_piece; });
+  body.lone_box = body.shapes_end == body.shapes_begin + 1 &&
+                  scene.shapes[body.shapes_begin].kind == ConvexShapeKind::box;
+  if (body.arm) scene.bodies_of_arm[body.arm->index()].push_back(scene.bodies.size());
+  scene.bodies.push_back(std::move(body));
 }
 
 void add_body(PlanningScene::Bodies& scene, CollisionBody body,
@@ -39,16 +55,11 @@ void add_body(PlanningScene::Bodies& scene, CollisionBody body,
   if (shapes.empty()) return;
   body.shapes_begin = scene.shapes.size();
   std::vector<ConvexShape> convex = make_convex_shapes(shapes);
-  body.has_pieces = std::ranges::any_of(convex, &ConvexShape::is_piece);
   body.fitted = fit_capsules(convex);
-  scene.shapes.insert(scene.shapes.end(), std::make_move_iterator(convex.begin()),
-                      std::make_move_iterator(convex.end()));
+  body.sphere = bound(convex);
+  std::ranges::move(convex, std::back_inserter(scene.shapes));
   body.shapes_end = scene.shapes.size();
-  bound(scene.shapes, body);
-  body.lone_box =
-      body.shapes_end == body.shapes_begin + 1 && scene.shapes.back().kind == ConvexShapeKind::box;
-  if (body.arm) scene.bodies_of_arm[body.arm->index()].push_back(scene.bodies.size());
-  scene.bodies.push_back(std::move(body));
+  add_body(scene, std::move(body));
 }
 
 // Adds a link as one body. Each box of a static link becomes a body of its own, like a box object,
@@ -89,21 +100,20 @@ bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_
   const CollisionBody& b = scene.bodies[index_b];
   if (a.held()) return held_allowed(scene, index_a, b);
   if (b.held()) return held_allowed(scene, index_b, a);
-  if (!b.link) return scene.cell->allowed.link_objects.contains({*a.link, b.name});
+  if (!b.link) return std::ranges::find(b.touched_by, *a.link) != b.touched_by.end();
   return scene.cell->allowed.allows(*a.link, *b.link) ||
          scene.out_of_reach->contains(std::minmax(*a.link, *b.link));
 }
 
-// Adds the pairs of the arm's bodies with the bodies that `wanted` selects, as one group. Leaves
-// out pairs that may touch.
-template <class Wanted>
-void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& wanted) {
+// Adds the pairs of the arm's bodies with `others` (indices, ascending), as one group. Leaves out
+// pairs that may touch. Within an arm, each pair is added once.
+void add_group(PlanningScene::Bodies& scene, PairGroup group,
+               const std::vector<std::size_t>& others) {
   group.pairs_begin = scene.pairs.size();
   for (const std::size_t a : scene.bodies_of_arm[group.arm.index()]) {
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      if (b == a || !wanted(a, scene.bodies[b], b)) continue;
-      if (allowed(scene, a, b)) continue;
-      scene.pairs.push_back({a, b});
+    for (const std::size_t b : others) {
+      if (group.kind == PairGroup::Kind::self && b <= a) continue;
+      if (!allowed(scene, a, b)) scene.pairs.push_back({a, b});
     }
   }
   group.pairs_end = scene.pairs.size();
@@ -116,36 +126,31 @@ void add_pairs(PlanningScene::Bodies& scene) {
   const auto arm_count = static_cast<std::uint32_t>(cell.arms.size());
   for (std::uint32_t i = 0; i < arm_count; ++i) {
     for (std::uint32_t j = i + 1; j < arm_count; ++j) {
-      add_group(scene, {Kind::arms, ArmId{i}, ArmId{j}},
-                [&](std::size_t, const CollisionBody& body, std::size_t) {
-                  return body.arm == ArmId{j};
-                });
+      add_group(scene, {Kind::arms, ArmId{i}, ArmId{j}}, scene.bodies_of_arm[j]);
     }
   }
-  const auto is_mount = [&](const CollisionBody& body, ArmId arm) {
-    return body.link && cell.is_mount(*body.link, arm);
-  };
   for (std::uint32_t i = 0; i < arm_count; ++i) {
-    add_group(scene, {Kind::still, ArmId{i}, std::nullopt},
-              [&](std::size_t, const CollisionBody& body, std::size_t) {
-                return !body.arm && !is_mount(body, ArmId{i});
-              });
-    add_group(scene, {Kind::mount, ArmId{i}, std::nullopt},
-              [&](std::size_t, const CollisionBody& body, std::size_t) {
-                return is_mount(body, ArmId{i});
-              });
+    std::vector<std::size_t> still, mount;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const CollisionBody& body = scene.bodies[b];
+      if (body.arm) continue;
+      (body.link && cell.is_mount(*body.link, ArmId{i}) ? mount : still).push_back(b);
+    }
+    add_group(scene, {Kind::still, ArmId{i}, std::nullopt}, still);
+    add_group(scene, {Kind::mount, ArmId{i}, std::nullopt}, mount);
   }
   for (std::uint32_t i = 0; i < arm_count; ++i) {
-    add_group(scene, {Kind::self, ArmId{i}, std::nullopt},
-              [&](std::size_t a, const CollisionBody& body, std::size_t b) {
-                return body.arm == ArmId{i} && b > a;
-              });
+    add_group(scene, {Kind::self, ArmId{i}, std::nullopt}, scene.bodies_of_arm[i]);
   }
 }
 
 void cut(PlanningScene::Bodies& scene, std::size_t end) {
   if (end == scene.bodies.size()) return;
-  scene.shapes.resize(scene.bodies[end].shapes_begin);
+  std::size_t shapes_end = 0;
+  for (std::size_t i = 0; i < end; ++i) {
+    shapes_end = std::max(shapes_end, scene.bodies[i].shapes_end);
+  }
+  scene.shapes.resize(shapes_end);
   scene.bodies.resize(end);
   for (auto& bodies : scene.bodies_of_arm) {
     std::erase_if(bodies, [end](std::size_t body) { return body >= end; });
@@ -173,14 +178,61 @@ void set_reach(PlanningScene::Bodies& scene) {
   }
 }
 
+// Returns a capsule around a box whose axis is a side of the box, without the search for a smaller
+// one: boxes of a scene are compared as boxes, and a camera sends thousands of them.
+LinkCapsules around_box(const ConvexShape& box) {
+  const Eigen::Matrix3d R = box.X_PS.linear();
+  const LinkCapsule capsule =
+      fit_capsule(extreme_balls(box), {R.col(0), R.col(1), R.col(2)}, false);
+  double depth_m = box.radius_m;  // least distance of the axis from the box's surface
+  for (const Eigen::Vector3d& p_P : {capsule.p_PA, capsule.p_PB}) {
+    const Eigen::Vector3d p = box.X_PS.inverse(Eigen::Isometry) * p_P;
+    depth_m = std::min(depth_m, (box.half_size_m - p.cwiseAbs()).minCoeff());
+  }
+  return {{capsule}, std::max(0.0, capsule.radius_m - depth_m)};
+}
+
+std::shared_ptr<const FittedShape> fit(const Shape& shape) {
+  FittedShape fit{shape, make_convex_shapes({{shape, Eigen::Isometry3d::Identity()}}), {}, {}};
+  fit.fitted = std::holds_alternative<Box>(shape) ? around_box(fit.convex.front())
+                                                  : fit_capsules(fit.convex);
+  fit.sphere = bound(fit.convex);
+  return std::make_shared<const FittedShape>(std::move(fit));
+}
+
+// Adds the objects of the scene, and all pairs. `fitted`: shapes that are fitted already.
 // Precondition: the attached objects are the last bodies.
-void add_objects(PlanningScene::Bodies& scene) {
+void add_objects(PlanningScene::Bodies& scene, const FittedShapes& fitted) {
+  std::map<std::string_view, std::vector<LinkId>> touching;
+  for (const auto& [link, object] : scene.cell->allowed.link_objects) {
+    touching[object].push_back(link);
+  }
+  FittedShapes used;
+  std::map<ShapeKey, std::pair<std::size_t, std::size_t>> ranges;  // in `shapes`
   for (const CollisionObject& object : scene.objects) {
+    const ShapeKey key = key_of(object.shape);
+    auto& own = used[key];
+    auto& [begin, end] = ranges[key];
+    if (own == nullptr) {
+      const auto known = fitted.find(key);
+      own = known == fitted.end() ? fit(object.shape) : known->second;
+      begin = scene.shapes.size();
+      std::ranges::copy(own->convex, std::back_inserter(scene.shapes));
+      end = scene.shapes.size();
+    }
     CollisionBody body;
     body.name = object.name;
     body.X_CP = object.X_WO;
-    add_body(scene, std::move(body), {{object.shape, Eigen::Isometry3d::Identity()}});
+    body.shapes_begin = begin;
+    body.shapes_end = end;
+    body.sphere = own->sphere;
+    body.fitted = own->fitted;
+    body.content = fingerprint_of_object(object);
+    const auto links = touching.find(object.name);
+    if (links != touching.end()) body.touched_by = links->second;
+    add_body(scene, std::move(body));
   }
+  scene.fitted = std::move(used);
   scene.fingerprint.objects = fingerprint_of_objects(scene);
   scene.pairs.clear();
   scene.groups.clear();
@@ -188,6 +240,21 @@ void add_objects(PlanningScene::Bodies& scene) {
 }
 
 }  // namespace
+
+ShapeKey key_of(const Shape& shape) {
+  std::array<double, 3> numbers{};
+  const MeshData* data = nullptr;
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    numbers = {box->size_m.x(), box->size_m.y(), box->size_m.z()};
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    numbers = {cylinder->radius_m, cylinder->length_m, 0.0};
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    numbers = {sphere->radius_m, 0.0, 0.0};
+  } else {
+    data = std::get<Mesh>(shape).data.get();
+  }
+  return {shape.index(), numbers, data};
+}
 
 PlanningScene::PlanningScene() : bodies_(std::make_unique<Bodies>()) {}
 PlanningScene::~PlanningScene() = default;
@@ -233,7 +300,7 @@ Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject
   bodies = *bodies_;
   cut(bodies, bodies.held_end);
   bodies.objects = std::move(objects);
-  add_objects(bodies);
+  add_objects(bodies, bodies_->fitted);
   return PlanningScenePtr(scene);
 }
 
@@ -252,7 +319,7 @@ Result<PlanningScenePtr> PlanningScene::with_attachments(
       fingerprint_of_arms(cell(), bodies.links_fingerprint, *bodies.attachments);
   add_held(bodies);
   set_reach(bodies);
-  add_objects(bodies);
+  add_objects(bodies, bodies_->fitted);
   return PlanningScenePtr(scene);
 }
 

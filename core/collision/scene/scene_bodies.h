@@ -2,11 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,7 +38,8 @@ struct CollisionBody {
   // Pose of the body in the carrier's frame C (identity for a link), or in the world if there is no
   // carrier.
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
-  std::size_t shapes_begin = 0;  // range in Bodies::shapes
+  // Range in Bodies::shapes. Objects of the same shape share it.
+  std::size_t shapes_begin = 0;
   std::size_t shapes_end = 0;
   struct BoundingSphere {
     Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // the sphere's center
@@ -44,6 +48,10 @@ struct CollisionBody {
   bool has_pieces = false;  // some shapes are pieces of a closed mesh
   bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
   LinkCapsules fitted;      // capsules around all shapes, in P
+  // Objects only: hash of the name, the shape and the pose; and the links that may touch the
+  // object.
+  Fingerprint content = 0;
+  std::vector<LinkId> touched_by = {};
 
   [[nodiscard]] bool held() const { return carrier && !link; }
   // Returns the body's pose in the world. `X_WL`: poses of all links.
@@ -91,6 +99,20 @@ struct PairGroup {
   }
 };
 
+// A shape, by value; meshes by their data. Two shapes with the same key are the same.
+using ShapeKey = std::tuple<std::size_t, std::array<double, 3>, const MeshData*>;
+[[nodiscard]] ShapeKey key_of(const Shape& shape);
+
+// An object's shape as the checks use it. Fitting takes up to milliseconds, so that scenes share
+// it: a change of the scene fits only shapes that the scene before did not have.
+struct FittedShape {
+  Shape shape;  // keeps the data of a mesh
+  std::vector<ConvexShape> convex;
+  LinkCapsules fitted;
+  CollisionBody::BoundingSphere sphere;
+};
+using FittedShapes = std::map<ShapeKey, std::shared_ptr<const FittedShape>>;
+
 // The bodies of a scene and the pairs to check. Groups, and their pairs, are in this order:
 // - Kind::arms by (arm, other)
 // - Kind::still and Kind::mount by arm
@@ -107,6 +129,7 @@ struct PlanningScene::Bodies {
   std::shared_ptr<const std::set<LinkPair>> out_of_reach;
   std::size_t held_end = 0;  // attached objects: [links_end, held_end) in `bodies`
   std::vector<ConvexShape> shapes;
+  FittedShapes fitted;  // of the objects
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;
   std::vector<std::vector<std::size_t>> bodies_of_arm;  // by ArmId

@@ -104,19 +104,22 @@ std::vector<Fingerprint> fingerprint_of_arms(const Cell& cell, const SceneFinger
   return arms;
 }
 
+Fingerprint fingerprint_of_object(const CollisionObject& object) {
+  ContentHash hash;
+  hash.add(object.name);
+  add(hash, object.shape);
+  add(hash, object.X_WO);
+  return hash.value();
+}
+
 std::vector<std::vector<Fingerprint>> fingerprint_of_objects(const PlanningScene::Bodies& bodies) {
   std::vector<std::vector<Fingerprint>> by_arm(bodies.reach.size());
-  std::size_t body = bodies.held_end;
-  for (const CollisionObject& object : bodies.objects) {
-    ContentHash hash;
-    hash.add(object.name);
-    add(hash, object.shape);
-    add(hash, object.X_WO);
-    const CollisionBody::BoundingSphere& sphere = bodies.bodies[body++].sphere;
-    const Ball ball{object.X_WO * sphere.p_PC, sphere.radius_m};
+  for (std::size_t i = bodies.held_end; i < bodies.bodies.size(); ++i) {
+    const CollisionBody& object = bodies.bodies[i];
+    const Ball ball{object.X_CP * object.sphere.p_PC, object.sphere.radius_m};
     for (std::size_t arm = 0; arm < by_arm.size(); ++arm) {
       if (out_of_reach(bodies.reach[arm], ball, bodies.cell->clearances.clearance_m)) continue;
-      by_arm[arm].push_back(hash.value());
+      by_arm[arm].push_back(object.content);
     }
   }
   for (std::vector<Fingerprint>& objects : by_arm) std::ranges::sort(objects);

@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 namespace armloom {
 namespace {
@@ -41,20 +43,26 @@ void find_link_problems(const Cell& cell, Problems& problems) {
 
 void find_object_problems(const std::vector<CollisionObject>& objects,
                           const std::vector<Attachment>& held, Problems& problems) {
-  std::set<std::string> names;
+  std::unordered_map<std::string_view, std::size_t> names;  // index of the first of that name
   const auto is_held = [&](const std::string& name) {
     return std::ranges::any_of(held, [&](const Attachment& h) { return h.object.name == name; });
   };
+  const auto place = [](std::size_t i) { return "/objects/" + std::to_string(i); };
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const std::string pointer = "/objects/" + std::to_string(i);
-    auto problem = mesh_problem(objects[i].shape, pointer + "/mesh");
-    if (problem) problems.push_back(*std::move(problem));
+    if (std::holds_alternative<Mesh>(objects[i].shape)) {
+      auto problem = mesh_problem(objects[i].shape, place(i) + "/mesh");
+      if (problem) problems.push_back(*std::move(problem));
+    }
     const std::string& name = objects[i].name;
     const bool taken = is_held(name);
-    if (names.insert(name).second && !taken) continue;
-    problems.push_back(
-        {ProblemKind::conflict, "name-taken", pointer + "/name",
-         (taken ? "an attached object is already named " : "two objects are named ") + name, name});
+    const auto [known, is_first] = names.emplace(name, i);
+    if (is_first && !taken) continue;
+    problems.push_back({ProblemKind::conflict, "name-taken", place(i) + "/name",
+                        taken ? "an attached object is already named " + name
+                              : "objects " + std::to_string(known->second) + " and " +
+                                    std::to_string(i) + " are both named " + name +
+                                    ": give each object its own name",
+                        name});
   }
 }
 

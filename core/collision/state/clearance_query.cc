@@ -54,25 +54,22 @@ struct ClearanceQuery::Scratch {
     return bodies_closer_than(bodies.shapes, o.a, o.b, o.limit_m);
   }
 
-  // Adds to `close` the lanes in which a hit is too close. If inner balls do not decide a pair of
+  // Adds to `close` the lanes in which the hit is too close. If inner balls do not decide a pair of
   // meshes, adds the pair to `open`. Deciding it can wait, because most states that are too close
   // also have a pair that overlaps deeply.
-  void decide_soon(const PlacedCell::Comparison& c, std::span<const filter::Hit> found,
-                   const std::vector<NarrowPair>& narrow, unsigned& close) {
-    for (const filter::Hit& hit : found) {
-      const NarrowPair& pair = narrow[static_cast<std::size_t>(hit.pair)];
-      for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
-        const unsigned bit = 1U << lane;
-        if ((hit.lanes & ~close & bit) == 0) continue;
-        const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
-                     pair.limit_m, lane, hit.distance[lane]};
-        const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
-        if (meshes ? bodies_surely_closer_than(bodies.shapes, o.a, o.b, o.limit_m)
-                   : closer_than_limit(o)) {
-          close |= bit;
-        } else if (meshes) {
-          open.push_back(o);
-        }
+  void decide_soon(const PlacedCell::Comparison& c, const filter::Hit& hit, const NarrowPair& pair,
+                   unsigned& close) {
+    for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
+      const unsigned bit = 1U << lane;
+      if ((hit.lanes & ~close & bit) == 0) continue;
+      const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
+                   pair.limit_m, lane, hit.distance[lane]};
+      const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
+      if (meshes ? bodies_surely_closer_than(bodies.shapes, o.a, o.b, o.limit_m)
+                 : closer_than_limit(o)) {
+        close |= bit;
+      } else if (meshes) {
+        open.push_back(o);
       }
     }
   }
@@ -84,8 +81,9 @@ struct ClearanceQuery::Scratch {
     open.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
       if (close == all) return close;
-      placed.filter(c, all & ~close,
-                    [&](auto found, const auto& narrow) { decide_soon(c, found, narrow, close); });
+      placed.filter(c, all & ~close, [&](const filter::Hit& hit, const NarrowPair& pair) {
+        decide_soon(c, hit, pair, close);
+      });
     }
     order.resize(open.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -109,12 +107,9 @@ struct ClearanceQuery::Scratch {
     placed.place(state);
     candidates.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
-      placed.filter(c, 1U, [&](auto found, const auto& narrow) {
-        for (const filter::Hit& hit : found) {
-          const PairId pair = narrow[static_cast<std::size_t>(hit.pair)].pair;
-          if (!wanted(bodies.group_of(pair))) continue;
-          candidates.push_back({static_cast<double>(hit.distance[0]), pair.index()});
-        }
+      placed.filter(c, 1U, [&](const filter::Hit& hit, const NarrowPair& narrow) {
+        if (!wanted(bodies.group_of(narrow.pair))) return;
+        candidates.push_back({static_cast<double>(hit.distance[0]), narrow.pair.index()});
       });
     }
     std::ranges::sort(candidates, {},
@@ -187,6 +182,72 @@ struct ClearanceQuery::Scratch {
     }
     return joints == 1;
   }
+
+  // An arm's mount and its other static bodies are one counterpart. The mount's group follows
+  // directly after the group of the other static bodies.
+  [[nodiscard]] static bool goes_on(const PairGroup& group, const PairGroup* before) {
+    return group.kind == PairGroup::Kind::mount && before != nullptr &&
+           before->kind == PairGroup::Kind::still && before->arm == group.arm;
+  }
+
+  // By counterpart, without self: the closest pair.
+  using ClosestPairs = std::vector<std::optional<NearPair>>;
+
+  // Fills those of `found` that are missing, from pairs closer than limit_of(group, pair,
+  // horizon_m), which is at most horizon_m. Skips groups that `wanted` does not select. Returns
+  // true if none is missing any more.
+  template <class Wanted, class LimitOf>
+  bool find_closest(const Configuration& q, double horizon_m, const Wanted& wanted,
+                    const LimitOf& limit_of, ClosestPairs& found) {
+    std::vector<std::size_t> counterpart(bodies.groups.size());
+    std::size_t count = 0;
+    const PairGroup* before = nullptr;
+    for (std::size_t g = 0; g < bodies.groups.size(); ++g) {
+      const PairGroup& group = bodies.groups[g];
+      if (group.kind == PairGroup::Kind::self || !wanted(group)) continue;
+      count += goes_on(group, before) ? 0 : 1;
+      counterpart[g] = count - 1;
+      before = &group;
+    }
+    found.resize(count);
+    const ClosestPairs known = found;
+    const auto is_missing = [&](const PairGroup& group) {
+      const auto g = static_cast<std::size_t>(&group - bodies.groups.data());
+      return group.kind != PairGroup::Kind::self && wanted(group) && !known[counterpart[g]];
+    };
+    if (std::ranges::none_of(bodies.groups, is_missing)) return true;
+    placed.set_limits({horizon_m, 0.0, horizon_m});
+    find_candidates(q, is_missing);
+    for (const PairGroup& group : bodies.groups) {
+      if (!is_missing(group)) continue;
+      auto& own = found[counterpart[static_cast<std::size_t>(&group - bodies.groups.data())]];
+      const auto pair = closest(group, [&](std::size_t p) {
+        const double limit_m = limit_of(group, p, horizon_m);
+        return own ? std::min(limit_m, own->clearance_m) : limit_m;
+      });
+      if (pair) own = pair;
+    }
+    return std::ranges::all_of(found, [](const auto& pair) { return pair.has_value(); });
+  }
+
+  // Does this for near horizons first, because among thousands of objects most are far away.
+  template <class Wanted, class LimitOf>
+  ClosestPairs closest_pairs(const Configuration& q, double horizon_m, const Wanted& wanted,
+                             const LimitOf& limit_of) {
+    constexpr double kNearer_m[] = {0.1, 0.4};
+    const PairLimits limits = placed.limits();
+    ClosestPairs found;
+    bool is_complete = false;
+    for (const double nearer_m : kNearer_m) {
+      if (is_complete || nearer_m >= horizon_m) break;
+      is_complete = find_closest(q, nearer_m, wanted, limit_of, found);
+    }
+    if (!is_complete) (void)find_closest(q, horizon_m, wanted, limit_of, found);
+    placed.set_limits(limits);
+    std::erase_if(found, [](const auto& pair) { return !pair; });
+    for (auto& pair : found) pair->limit_m = horizon_m;
+    return found;
+  }
 };
 
 ClearanceQuery::ClearanceQuery(PlanningScenePtr scene)
@@ -242,35 +303,22 @@ std::vector<Proximity> ClearanceQuery::closest_too_close(const Configuration& q)
 }
 
 ClearanceQuery::Closest ClearanceQuery::closest_apart(const Configuration& q, double horizon_m) {
-  const PairLimits limits = scratch_->placed.limits();
   const double near_m = kNear * scratch_->bodies.cell->clearances.clearance_m;
-  set_limits({horizon_m, 0.0, horizon_m});
-  using Kind = PairGroup::Kind;
-  scratch_->find_candidates(q, [](const PairGroup& group) { return group.kind != Kind::self; });
+  const auto apart = scratch_->closest_pairs(
+      q, horizon_m, [](const PairGroup&) { return true; },
+      [&](const PairGroup& group, std::size_t pair, double within_m) {
+        return scratch_->is_at_mount(group, pair) ? std::min(near_m, within_m) : within_m;
+      });
+  const auto at_mount = scratch_->closest_pairs(
+      q, horizon_m, [](const PairGroup& group) { return group.kind != PairGroup::Kind::arms; },
+      [&](const PairGroup& group, std::size_t pair, double within_m) {
+        return scratch_->is_at_mount(group, pair) ? within_m : 0.0;
+      });
   Closest found;
-  for (const PairGroup& group : scratch_->bodies.groups) {
-    if (group.kind == Kind::self) continue;
-    const auto is_at_mount = [&](std::size_t pair) { return scratch_->is_at_mount(group, pair); };
-    const auto apart = scratch_->closest(group, [&](std::size_t pair) {
-      return is_at_mount(pair) ? std::min(near_m, horizon_m) : horizon_m;
-    });
-    if (group.kind != Kind::arms) {
-      const auto at_mount = scratch_->closest(
-          group, [&](std::size_t pair) { return is_at_mount(pair) ? horizon_m : 0.0; });
-      if (at_mount && at_mount->clearance_m >= near_m) {
-        found.at_mount.push_back(describe(*at_mount));
-      }
-    }
-    if (!apart) continue;
-    // Here, an arm's static bodies and its mount are one counterpart. The mount's group follows
-    // directly after the group of the other static bodies.
-    const bool goes_on = group.kind == Kind::mount && !found.apart.empty() &&
-                         !found.apart.back().arm_b && found.apart.back().arm_a == group.arm;
-    if (goes_on && apart->clearance_m >= found.apart.back().clearance_m) continue;
-    if (goes_on) found.apart.pop_back();
-    found.apart.push_back(describe(*apart));
+  for (const auto& pair : apart) found.apart.push_back(describe(*pair));
+  for (const auto& pair : at_mount) {
+    if (pair->clearance_m >= near_m) found.at_mount.push_back(describe(*pair));
   }
-  set_limits(limits);
   return found;
 }
 

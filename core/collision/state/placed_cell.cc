@@ -39,16 +39,13 @@ PlacedCell::PlacedCell(const PlanningScene::Bodies& bodies, const PairLimits& li
 void PlacedCell::compare(std::size_t a, std::size_t b) {
   PairSet pairs = pairs_between(bodies_, arms_[a].kinematics, arms_[b].kinematics);
   if (pairs.empty()) return;
-  hits_.resize(std::max({hits_.size(), pairs.pairs.size() + 1, pairs.boxes.size() + 1}));
+  hits_.resize(std::max(hits_.size(), pairs.hits_max() + 1));
   comparisons_.push_back({a, b, std::move(pairs)});
 }
 
 void PlacedCell::set_limits(const PairLimits& limits) {
   limits_ = limits;
-  for (Comparison& c : comparisons_) {
-    c.pairs.set_limits(
-        [&](const NarrowPair& pair) { return bodies_.group_of(pair.pair).limit_m(limits); });
-  }
+  for (Comparison& c : comparisons_) c.pairs.set_limits(limits);
 }
 
 void PlacedCell::place(std::span<const Configuration* const> states) {

@@ -31,8 +31,7 @@ class PlacedCell {
     PairSet pairs;
   };
   [[nodiscard]] const std::vector<Comparison>& comparisons() const { return comparisons_; }
-  // Calls visit(hits, narrow) for the pairs that the filter leaves undecided in `lanes`.
-  // narrow[hit.pair] has the bodies of a hit.
+  // Calls visit(hit, pair) for each pair that the filter leaves undecided in `lanes`.
   template <class Visit>
   void filter(const Comparison& c, unsigned lanes, const Visit& visit) {
     const filter::Kernel& kernel = filter::best_kernel();
@@ -40,13 +39,16 @@ class PlacedCell {
     const auto found = [&](int count) {
       return std::span<const filter::Hit>(hits_).first(static_cast<std::size_t>(count));
     };
-    visit(found(kernel.near_pairs(arms_[c.a].side(), arms_[c.b].side(), set.grouped(), lanes,
-                                  hits_.data())),
-          set.narrow);
+    const filter::Side side = arms_[c.a].side();
+    for (const filter::Hit& hit :
+         found(kernel.near_pairs(side, arms_[c.b].side(), set.grouped(), lanes, hits_.data()))) {
+      visit(hit, set.narrow[static_cast<std::size_t>(hit.pair)]);
+    }
     if (set.boxes.empty()) return;
-    visit(found(kernel.near_boxes(arms_[c.a].side(), set.boxes.data(),
-                                  static_cast<int>(set.boxes.size()), lanes, hits_.data())),
-          set.narrow_boxes);
+    for (const filter::Hit& hit :
+         found(kernel.near_boxes(side, set.all_boxes(), lanes, hits_.data()))) {
+      visit(hit, set.narrow_of(hit.pair, hit.capsule));
+    }
   }
   // Returns a body and its pose in one lane. `side`: Comparison::a or b. `index`:
   // NarrowPair::body_a or body_b.

@@ -18,18 +18,9 @@ SurfaceTreePtr box_tree(const Vector3d& half) {
     vertices.emplace_back(i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(),
                           i & 4 ? half.z() : -half.z());
   }
-  return make_surface_tree(std::move(vertices), {{0, 2, 3},
-                                                 {0, 3, 1},
-                                                 {4, 5, 7},
-                                                 {4, 7, 6},
-                                                 {0, 1, 5},
-                                                 {0, 5, 4},
-                                                 {2, 6, 7},
-                                                 {2, 7, 3},
-                                                 {0, 4, 6},
-                                                 {0, 6, 2},
-                                                 {1, 3, 7},
-                                                 {1, 7, 5}});
+  std::vector<Triangle> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return make_surface_tree(std::move(vertices), std::move(triangles), false);
 }
 
 // Returns a prism whose sides touch the cylinder, with a vertex at the center of each end.

@@ -35,11 +35,11 @@ const SurfaceTree::Box kNoBox{Eigen::Vector3f::Zero(), Eigen::Vector3f::Constant
 
 class Builder {
  public:
-  explicit Builder(SurfaceTree& tree) : tree_(tree) {
+  Builder(SurfaceTree& tree, bool are_divided) : tree_(tree) {
     Eigen::AlignedBox3d all;
     for (const Eigen::Vector3d& p : tree.vertices) all.extend(p);
     const double extent_m = all.sizes().maxCoeff();
-    largest_m_ = kShare * extent_m;
+    largest_m_ = are_divided ? kShare * extent_m : extent_m;
     rounding_m_ = kRounding * (extent_m + all.center().norm());
     for (std::uint32_t t = 0; t < tree.triangles.size(); ++t) {
       const auto corners = tree.corners(t);
@@ -220,11 +220,11 @@ std::size_t open_edges(const std::vector<Triangle>& triangles) {
 bool is_closed(const std::vector<Triangle>& triangles) { return open_edges(triangles) == 0; }
 
 SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
-                                 std::vector<Triangle> triangles) {
+                                 std::vector<Triangle> triangles, bool are_divided) {
   auto tree = std::make_shared<SurfaceTree>();
   tree->vertices = std::move(vertices);
   tree->triangles = std::move(triangles);
-  Builder(*tree).build();
+  Builder(*tree, are_divided).build();
   find_components(*tree);
   tree->encloses = tree->triangles.size() >= 4 && is_closed(tree->triangles);
   for (const Eigen::Vector3d& p : tree->vertices) tree->reach_m = std::max(tree->reach_m, p.norm());

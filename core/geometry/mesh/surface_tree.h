@@ -68,7 +68,10 @@ using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 // the median along the longest side until each leaf has a single part. Accepts degenerate triangles
 // (points, segments). Deterministic; half a second for half a million triangles. Precondition: at
 // least one triangle, all numbers finite.
+// `are_divided`: false for faces along the axes of T. Two such triangles fill their box, so that
+// parts would gain nothing.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
-                                               std::vector<Triangle> triangles);
+                                               std::vector<Triangle> triangles,
+                                               bool are_divided = true);
 
 }  // namespace armloom
