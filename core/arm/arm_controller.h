@@ -23,8 +23,10 @@ struct ArmFeedback {
   Phase phase = Phase::idle;
   Duration commanded_progress{};  // trajectory time commanded so far
   Duration measured_progress{};   // trajectory time proven by measurement (lags behind)
-  Eigen::VectorXd measured;       // positions of joints()
-  std::string detail;             // reason of a fault
+  // While braking: the progress at which the arm will rest; nullopt if the controller cannot tell.
+  std::optional<Duration> rests_at = {};
+  Eigen::VectorXd measured;  // positions of joints()
+  std::string detail;        // reason of a fault
   // True if the arm has no motion, waits for its start, or rests on its path.
   bool at_rest = false;
   // True if the arm also stays at rest until the next command.

@@ -19,20 +19,23 @@ void CommandedProgress::follow(TrajectoryPtr trajectory, Duration from, Duration
 
 void CommandedProgress::grant(Duration authority) {
   if (authority < authority_ && authority < trajectory_->duration()) {
-    // The progress at which the arm would rest if it braked from the next tick on.
-    Duration stop = progress_;
-    double rate = rate_;
-    while (rate > 0.0 && stop < trajectory_->duration()) {
-      const Step step = braked(stop, rate, to_seconds(kControlPeriod));
-      stop += from_seconds(step.progress_s);
-      rate = step.rate;
-    }
-    authority_ = std::max(authority, std::min(stop, authority_));
+    authority_ = std::max(authority, stop_from_here());
     compute_curve();
     return;
   }
   curve_stale_ = curve_stale_ || authority != authority_;
   authority_ = authority;
+}
+
+Duration CommandedProgress::stop_from_here() {
+  Duration stop = progress_;
+  double rate = rate_;
+  while (rate > 0.0 && stop < end()) {
+    const Step step = braked(stop, rate, to_seconds(kControlPeriod));
+    stop += from_seconds(step.progress_s);
+    rate = step.rate;
+  }
+  return std::min(stop, end());
 }
 
 void CommandedProgress::compute_curve() {

@@ -19,6 +19,8 @@ class CommandedProgress {
   // brake ends.
   void grant(Duration authority);
   void advance(Duration period, bool braking);
+  // Returns the progress at which the arm would rest if it braked from the next tick on.
+  [[nodiscard]] Duration stop_from_here();
 
   [[nodiscard]] Duration progress() const { return progress_; }
   [[nodiscard]] double rate() const { return rate_; }

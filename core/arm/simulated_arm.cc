@@ -77,6 +77,7 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
   motion_.follow(path_.trajectory, from_progress, authority);
   start_at_ = start_at;
   feedback_.phase = Phase::waiting;
+  feedback_.rests_at.reset();
   feedback_.commanded_progress = from_progress;
   feedback_.measured_progress = from_progress;
 }
@@ -92,6 +93,7 @@ void SimulatedArm::brake() {
   } else if (feedback_.phase == Phase::moving &&
              feedback_.commanded_progress < path_.trajectory->duration()) {
     feedback_.phase = Phase::braking;
+    feedback_.rests_at = motion_.stop_from_here();
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/state/check_home.h"
 #include "core/executive/arms_of.h"
+#include "core/executive/gripper_goal.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/executive/views.h"
 #include "core/planning/answer_plan.h"
@@ -55,7 +56,11 @@ class Plan {
     Problems found;
     const bool fails = find_what_it_follows(timed.job, job, found);
     add_below(place, std::move(found), problems);
-    if (timed.job.move_to) {
+    if (moves_gripper_only(timed.job, cell_)) {
+      auto motion = gripper_motion(timed.job, cell_, rest_);
+      if (motion) job.trajectory = *std::move(motion);
+      if (!motion) add_below(place, std::move(motion.error()), problems);
+    } else if (timed.job.move_to) {
       auto goals = goals_of(cell_, {timed.job.arm, timed.job.arms}, *timed.job.move_to, "/move_to");
       if (!goals) add_below(place, std::move(goals.error()), problems);
       if (goals && !fails) plan(*goals, timed.job.speed, job);

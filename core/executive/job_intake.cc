@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/add_below.h"
+#include "core/executive/gripper_goal.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/sequence/places.h"
 #include "core/trajectory/implicit_start.h"
@@ -108,7 +109,9 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
          "goal begins where the arm is, and alternatives must begin where it is",
          to_string(request.terms.move_to_start)});
   }
-  if (request.move_to) {
+  if (moves_gripper_only(request, *cell_)) {
+    motions = read_gripper_goal(request, ahead, problems);
+  } else if (request.move_to) {
     goals = read_goals(request, problems);
     if (problems.empty()) motions = estimates_for(goals, ahead);
   } else {
@@ -167,23 +170,39 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
   return motions;
 }
 
+std::optional<Problem> JobIntake::unknown_start(ArmId arm, const Ahead& ahead) const {
+  if (std::ranges::find(ahead.open, arm) == ahead.open.end()) return std::nullopt;
+  const std::string& name = cell_->arm(arm).name;
+  return Problem{ProblemKind::invalid, "unknown-start", "",
+                 "the motion begins where " + name +
+                     " will be, but this is not known before its last job is planned, or has come "
+                     "to rest: send the job then, or give the start as a waypoint with time 0",
+                 name};
+}
+
 Result<TrajectoryPtr> JobIntake::validate_from(const TrajectoryRequest& asked,
                                                const Ahead& ahead) const {
   if (!has_implicit_start(asked, *cell_)) return validate(asked, *cell_);
   for (const ArmId arm : arms_of(asked, *cell_)) {
-    if (std::ranges::find(ahead.open, arm) == ahead.open.end()) continue;
-    const std::string& name = cell_->arm(arm).name;
-    return failure(Problem{ProblemKind::invalid, "unknown-start", "/points/0",
-                           "the trajectory begins where " + name +
-                               " will be, but this is not known before the goal of its last job is "
-                               "planned: give the start as a waypoint with time 0, send the job "
-                               "when " +
-                               name + " has a plan, or send a goal (\"move_to\")",
-                           name});
+    if (auto problem = unknown_start(arm, ahead)) return failure(*std::move(problem));
   }
   auto complete = with_implicit_start(asked, *cell_, ahead.rest);
   if (!complete) return failure(std::move(complete.error()));
   return validate(*complete, *cell_);
+}
+
+std::vector<TrajectoryPtr> JobIntake::read_gripper_goal(const JobRequest& request,
+                                                        const Ahead& ahead,
+                                                        Problems& problems) const {
+  auto motion = gripper_motion(request, *cell_, ahead.rest);
+  if (!motion) {
+    add_below("", std::move(motion.error()), problems);
+    return {};
+  }
+  if (auto problem = unknown_start((*motion)->arms().front(), ahead)) {
+    add_below("/move_to", {*std::move(problem)}, problems);
+  }
+  return {*std::move(motion)};
 }
 
 // Where it is not known yet where an arm will be, it is taken to be where the motion begins; at its

@@ -71,6 +71,12 @@ class JobIntake {
   // Validates a motion; an implicit start is the position after the earlier jobs.
   [[nodiscard]] Result<TrajectoryPtr> validate_from(const TrajectoryRequest& asked,
                                                     const Ahead& ahead) const;
+  // Returns a problem if it is not known where the arm will be.
+  [[nodiscard]] std::optional<Problem> unknown_start(ArmId arm, const Ahead& ahead) const;
+  // Returns the motion of a goal that moves_gripper_only().
+  [[nodiscard]] std::vector<TrajectoryPtr> read_gripper_goal(const JobRequest& request,
+                                                             const Ahead& ahead,
+                                                             Problems& problems) const;
   [[nodiscard]] std::vector<MotionGoal> read_goals(const JobRequest& request,
                                                    Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> estimates_for(const std::vector<MotionGoal>& goals,

@@ -119,6 +119,7 @@ void Motions::report(JobId job, Motion& motion) {
   bool all_rest = true, all_finished = true, any_moves = false;
   const ArmFeedback* fault = nullptr;
   Duration progress = motion.trajectory->duration(), farthest{};
+  std::optional<Duration> rests_at = progress;
   for (ArmId arm : motion.trajectory->arms()) {
     const ArmFeedback& feedback = feedback_[arm.index()];
     all_rest = all_rest && at_rest(feedback.phase);
@@ -127,6 +128,7 @@ void Motions::report(JobId job, Motion& motion) {
     if (feedback.phase == Phase::fault) fault = &feedback;
     progress = std::min(progress, feedback.measured_progress);
     farthest = std::max(farthest, feedback.measured_progress);
+    rests_at = rests_at && feedback.rests_at ? std::min(rests_at, feedback.rests_at) : std::nullopt;
   }
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
@@ -140,7 +142,10 @@ void Motions::report(JobId job, Motion& motion) {
     reports_.push_back({job, kind, progress, joints_of(measured_, motion.trajectory->joints()),
                         fault ? fault->detail : std::string(), farthest});
   } else if (any_moves) {
-    reports_.push_back({job, MotionReport::Kind::progressed, progress});
+    reports_.push_back({.job = job,
+                        .kind = MotionReport::Kind::progressed,
+                        .progress = progress,
+                        .rests_at = rests_at});
   }
 }
 

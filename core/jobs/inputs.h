@@ -88,6 +88,8 @@ struct MotionReport {
   // stopped, faulted: progress of the arm that is farthest on the trajectory, while `progress` is
   // that of the last arm. May be zero if both are equal.
   Duration farthest{};
+  // progressed: while the motion brakes, the progress at which its last arm will rest, if known.
+  std::optional<Duration> rests_at = {};
 };
 // Stops these arms and starts nothing on them until Resume.
 struct Stop {

@@ -65,8 +65,9 @@ struct Moving {
 };
 struct Braking {
   AfterStop after;
-  JobState state;       // scheduled, running, paused
-  bool paused = false;  // was already at rest
+  JobState state;                         // scheduled, running, paused
+  bool paused = false;                    // was already at rest
+  std::optional<Duration> rests_at = {};  // MotionReport::rests_at
 };
 struct Held {
   Judgement judgement = {};

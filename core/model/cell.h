@@ -85,6 +85,8 @@ struct Arm {
   std::vector<LinkId> links;                            // moved by these joints
   Eigen::VectorXd home;                                 // size joints.size()
   std::map<std::string, Eigen::VectorXd> named_states;  // from the SRDF
+  // States of the SRDF that give positions of gripper joints only ("open").
+  std::map<std::string, std::map<JointId, double>> gripper_states = {};
 };
 
 struct Robot {

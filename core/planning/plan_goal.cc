@@ -30,10 +30,17 @@ Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
   for (const auto& [state, q] : arm.named_states) {
     if (state != "home") known += ", " + state;
   }
+  for (const auto& [state, positions] : arm.gripper_states) known += ", " + state + " (gripper)";
   return fault("unknown-state", "/named",
                "arm " + arm.name + " has no named state " + name +
                    did_you_mean(name, arm.named_states) + "; it has " + known,
                name);
+}
+
+std::string gripper_remedy(const Cell& cell, const Arm& arm) {
+  if (arm.gripper_joints.empty()) return "";
+  return "; gripper joints are given by name: {\"" + cell.joint(arm.gripper_joints.front()).name +
+         "\": ...}";
 }
 
 // Returns the names of the arm's links: "left_link1, left_link2".
@@ -131,6 +138,12 @@ Result<ArmId> find_arm(const Cell& cell, const std::string& name) {
 Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& said) {
   const Arm& arm = cell.arm(id);
   if (said.named) return named_state(arm, *said.named);
+  if (!said.gripper.empty()) {
+    return fault("not-served", "/joints",
+                 "only a job moves gripper joints: send the goal as a job, or give the positions "
+                 "of the arm's joints as a list",
+                 said.gripper.begin()->first);
+  }
   if (!said.joints) {
     return fault("not-served", "/pose",
                  "a pose does not define the position of each joint: give joints or a named state",
@@ -139,7 +152,8 @@ Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& sa
   if (said.joints->size() != arm.joints.size()) {
     return fault("size-mismatch", "/joints",
                  "arm " + arm.name + " has " + std::to_string(arm.joints.size()) +
-                     " joints, found " + std::to_string(said.joints->size()) + " positions",
+                     " joints, found " + std::to_string(said.joints->size()) + " positions" +
+                     gripper_remedy(cell, arm),
                  std::to_string(said.joints->size()));
   }
   return Eigen::Map<const Eigen::VectorXd>(said.joints->data(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,8 @@
 
 namespace armloom {
 
-// A client's goal for an arm. In PlanGoal exactly one of `joints`, `named` and `pose` is given.
+// A client's goal for an arm. In PlanGoal exactly one of `joints`, `gripper`, `named` and `pose` is
+// given.
 struct PlanPose {
   // Name of the link, with or without the robot's prefix; by default the link of the arm's last
   // joint.
@@ -22,6 +24,9 @@ struct PlanGoal {
   std::optional<std::string> named;           // a named state of the SRDF, or "home"
   std::optional<PlanPose> pose;
   bool cartesian = false;  // with a pose: the link moves in a straight line
+  // Positions of gripper joints by name, with or without the robot's prefix; rad or m. The arm
+  // stays. The planner refuses them: see core/executive/gripper_goal.h.
+  std::map<std::string, double> gripper = {};
 };
 
 // One arm, or several candidates of which one moves; exactly one member is given.

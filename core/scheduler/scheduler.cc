@@ -243,6 +243,9 @@ void Scheduler::on(const MotionReport& input) {
   see_pauses(state_, *record, before);
   if (input.kind == MotionReport::Kind::progressed) {
     note_progress(state_, *record);
+    if (auto* braking = std::get_if<Braking>(&record->job.phase)) {
+      braking->rests_at = input.rests_at;
+    }
   } else {
     come_to_rest(state_, *record, input);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
@@ -274,13 +277,31 @@ void Scheduler::forget(JobId ended) {
   if (job != nullptr && job->has_ended()) state_.jobs.forget(ended);
 }
 
+namespace {
+
+// Returns the phase of a job that brakes and then ends; null if it goes on to its goal.
+const Braking* ends_by_braking(const Job& job) {
+  const auto* braking = job.in<Braking>();
+  return braking != nullptr && braking->after.then != AfterStop::Then::hold ? braking : nullptr;
+}
+
+}  // namespace
+
 // The last job of an arm says where it ends.
 Configuration Scheduler::predicted_rest() const {
   Configuration q = rest();
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
     const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    follow_to_end(q, *state_.cell, ArmId{arm}, *state_.jobs.at(queue.back()).job.trajectory);
+    const Job& last = state_.jobs.at(queue.back()).job;
+    const Braking* braking = ends_by_braking(last);
+    if (braking == nullptr || !braking->rests_at) {
+      follow_to_end(q, *state_.cell, ArmId{arm}, *last.trajectory);
+      continue;
+    }
+    Eigen::VectorXd stop;
+    last.trajectory->sample_positions(*braking->rests_at, stop);
+    set_joints_of(q, *state_.cell, ArmId{arm}, *last.trajectory, stop);
   }
   return q;
 }
@@ -292,7 +313,9 @@ std::vector<ArmId> Scheduler::open_ends() const {
     if (queue.empty()) continue;
     const Job& last = state_.jobs.at(queue.back()).job;
     const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
-    if (is_pose && last.is_unplanned()) open.push_back(ArmId{arm});
+    const Braking* braking = ends_by_braking(last);
+    const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
+    if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
   }
   for (JobId id : state_.jobs.undecided()) {
     const Job& job = state_.jobs.at(id).job;

@@ -50,11 +50,12 @@ class Scheduler {
 
   // Returns the rest position of every joint; for a moving joint the position where it started.
   [[nodiscard]] const Configuration& rest() const { return state_.arms.rest(); }
-  // Returns where every joint will be when all accepted jobs have succeeded (rad, m). A new job
-  // must begin there.
+  // Returns where every joint will be when all accepted jobs have succeeded (rad, m), or where the
+  // arm comes to rest if its last job is being canceled. A new job must begin there.
   [[nodiscard]] Configuration predicted_rest() const;
   // Returns the arms for which predicted_rest() is an estimate, because the arm's last goal is a
-  // pose without a plan, or because a job may still go to this arm or to another one.
+  // pose without a plan, because a job may still go to this arm or to another one, or because the
+  // arm brakes and its controller has not told where it will rest.
   [[nodiscard]] std::vector<ArmId> open_ends() const;
 
   // Returns the id for the next job to be submitted. Call again after each step(): the scheduler

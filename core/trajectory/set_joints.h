@@ -19,13 +19,18 @@ inline void set_joints(Configuration& q, const Trajectory& trajectory,
   set_joints(q, trajectory.joints(), position);
 }
 
-// Moves the arm's joints to the motion's goal; joints outside the motion stay.
-inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion) {
+// Sets the arm's joints to their part of `position`, which is in the order of the motion's joints;
+// joints outside the motion stay.
+inline void set_joints_of(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion,
+                          const Eigen::VectorXd& position) {
   for (std::size_t j = 0; j < motion.joints().size(); ++j) {
     const JointId joint = motion.joints()[j];
     if (cell.joint(joint).arm != arm) continue;
-    q[static_cast<Eigen::Index>(joint.index())] = motion.goal()[static_cast<Eigen::Index>(j)];
+    q[static_cast<Eigen::Index>(joint.index())] = position[static_cast<Eigen::Index>(j)];
   }
+}
+inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion) {
+  set_joints_of(q, cell, arm, motion, motion.goal());
 }
 
 // Returns the positions of these joints, in their order.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,8 +31,6 @@ struct TrajectoryRequest {
   std::optional<Retime> retime = {};
   // If given: joint names may lack the prefix of this arm's robot.
   std::string arm = {};
-  // The time in the header, in nanoseconds since 1970; nullopt if it is zero or not given.
-  std::optional<std::int64_t> stamp_ns = {};
   // JSON pointer to the trajectory in the job's body; nullopt: the usual place.
   std::optional<std::string> place = {};
   bool has_implicit_start = false;  // the first waypoint was inserted (implicit_start.h)

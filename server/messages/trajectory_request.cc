@@ -1,6 +1,5 @@
 #include "server/messages/trajectory_request.h"
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -101,23 +100,30 @@ FormatPtr<WaypointRequest> waypoint_format() {
       }));
 }
 
-FormatPtr<TrajectoryRequest> header_format() {
-  using Trajectory = TrajectoryRequest;
-  constexpr double kNanoseconds = 1e9;
-  return object<Trajectory>({
-      member<Trajectory>(
-          {"stamp",
-           "Wall time at which the motion begins; 0: as soon as possible",
-           Need::optional,
-           {}},
-          time_format(), [](const Trajectory&) { return std::optional<double>(); },
-          [](Trajectory& trajectory, double stamp_s) {
-            trajectory.stamp_ns.reset();
-            if (stamp_s == 0.0) return;
-            trajectory.stamp_ns = static_cast<std::int64_t>(std::llround(stamp_s * kNanoseconds));
-          }),
-      ignored<Trajectory>("frame_id", text(), "Ignored: joint positions have no frame"),
-      ignored<Trajectory>("seq", anything("integer"), "Ignored"),
+// Accepts only the stamp 0, which asks for a start as soon as possible.
+class NoStamp final : public CustomFormat<Anything> {
+ public:
+  void read(const JsonNode& node, Anything&) const override {
+    double stamp_s = 0.0;
+    time_->read(node, stamp_s);
+    if (stamp_s == 0.0) return;
+    node.invalid(
+        "not-served",
+        "a motion does not wait for a time: give the stamp 0, so that it begins as soon as "
+        "it is certified, and send the job when it may begin, or put it \"after\" another");
+  }
+  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
+  Schema schema(Way way) const override { return time_->schema(way); }
+
+ private:
+  FormatPtr<double> time_ = time_format();
+};
+
+FormatPtr<Anything> header_format() {
+  return object<Anything>({
+      ignored<Anything>("stamp", make_format<NoStamp>(), "Must be 0"),
+      ignored<Anything>("frame_id", text(), "Ignored: joint positions have no frame"),
+      ignored<Anything>("seq", anything("integer"), "Ignored"),
   });
 }
 
@@ -130,12 +136,7 @@ PartPtr<TrajectoryRequest> plain_parts() {
                "synchronous motion. If of an arm only gripper joints are named, it stays"),
       required("points", &Trajectory::points, list(waypoint_format(), points),
                "Waypoints. A single waypoint is approached from where the arm will be"),
-      member<Trajectory>(
-          {"header", "", Need::optional, {}}, header_format(),
-          [](const Trajectory&) { return std::optional<Trajectory>(); },
-          [](Trajectory& trajectory, const Trajectory& read) {
-            trajectory.stamp_ns = read.stamp_ns;
-          }),
+      ignored<Trajectory>("header", header_format(), ""),
   });
 }
 

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
     Trajectories, DegenerateInput,
     ::testing::Values(
         BadInput{"Empty", points({}), "/trajectory/points", ""},
-        BadInput{"OnePoint", points({{{-1}, {0}, {0}, 0}}), "/trajectory/points", ""},
+        BadInput{"OnePointElsewhere", points({{{0}, {0}, {0}, 0}}),
+                 "/trajectory/points/0/time_from_start", "retime"},
         BadInput{"EqualTimes", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 0}}),
                  "/trajectory/points/1/time_from_start", ""},
         BadInput{"TwoVelocitiesAtOneTime",
@@ -82,6 +83,45 @@ TEST(ConstantTrajectory, Succeeds) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("stands").state, JobState::succeeded);
   EXPECT_EQ(cell.log.last, cell.log.first);
+}
+
+TEST(ImplicitStart, IsWhereTheJobBeforeEnds) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 0.5, 4, "first"));
+  cell.submit(points({{{0.8}, {0}, {}, 2}}));
+  cell.submit(points({{{0.8}, {0}, {}, 0}}));  // already there
+  cell.run_to_the_end();
+  EXPECT_NEAR(cell.log.last[0], 0.8, 1e-9);
+  for (const JobView& job : cell.simulation->executive().snapshot().jobs) {
+    EXPECT_EQ(job.state, JobState::succeeded) << job.key;
+  }
+}
+
+TEST(ImplicitStart, OfAGoalWithoutAPlanIsRefused) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "moves"));
+  JobRequest pose{.key = "pose", .name = "", .trajectory = {}};
+  pose.arm = "x";
+  pose.move_to = PlanGoal{.pose = PlanPose{}};
+  cell.submit(pose);
+  const auto refused = cell.simulation->executive().submit(points({{{0.8}, {0}, {}, 2}}));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().slug, "unknown-start");
+}
+
+TEST(PredictedRest, OfAnArmThatBrakesIsWhereItWillRest) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "canceled"));
+  cell.run_until(at(2s));
+  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
+  cell.simulation->tick();
+  const double now_m = cell.log.last[0];
+  const auto refused = cell.simulation->executive().submit(slide("x", now_m, 1, 4));
+  ASSERT_FALSE(refused) << "the arm comes to rest farther on";
+  EXPECT_EQ(refused.error().front().slug, "start-mismatch");
+  cell.submit(points({{{-0.5}, {0}, {}, 4}}));  // from where it will rest
+  cell.run_to_the_end();
+  EXPECT_NEAR(cell.log.last[0], -0.5, 1e-9);
 }
 
 TEST(Submit, RefusesAnIdInUse) {

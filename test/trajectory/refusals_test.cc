@@ -146,6 +146,11 @@ TEST(Validate, RejectsMissingVelocitiesAndPartialAccelerations) {
   expect_only(request, "no-velocities", "/points/0", Value{});
 
   request = pair_request();
+  request.points.front().velocities.clear();
+  request.points.back().velocities.clear();
+  EXPECT_TRUE(validate(request, test_cell())) << "the motion is at rest at its ends";
+
+  request = pair_request();
   request.points[0].accelerations = {0.0, 0.0};
   request.points[2].accelerations = {0.0, 0.0};
   expect_only(request, "partial-accelerations", "/points/1", Value{});

@@ -109,6 +109,25 @@ void read_named_states(const RobotBuild& robot, const ArmBuild& build,
   }
 }
 
+// Adds the states of any group that give positions, within the limits, of gripper joints of this
+// arm only. Joints that follow others have no value of their own.
+void read_gripper_states(const RobotBuild& robot, Arm& arm, const Cell& cell) {
+  for (const auto& [group, states] : robot.semantics->states) {
+    for (const auto& [name, state] : states) {
+      std::map<JointId, double> positions;
+      bool is_gripper = true;
+      for (const auto& [index, value] : state.values) {
+        const std::optional<JointId> joint = robot.joints[index];
+        if (!joint) continue;
+        is_gripper = is_gripper && std::ranges::count(arm.gripper_joints, *joint) > 0 &&
+                     value >= cell.joint(*joint).lower && value <= cell.joint(*joint).upper;
+        positions.emplace(*joint, value);
+      }
+      if (is_gripper && !positions.empty()) arm.gripper_states.emplace(name, std::move(positions));
+    }
+  }
+}
+
 std::string listed(const std::map<std::string, NamedState>& states) {
   std::string text;
   for (const auto& [name, state] : states) {
@@ -268,6 +287,7 @@ void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
     const std::string& named = build.description->home_state;
     auto states = robot.semantics ? states_of(robot, build) : std::map<std::string, NamedState>();
     read_named_states(robot, build, states, cell, diagnostics);
+    if (robot.semantics) read_gripper_states(robot, arm, cell);
     std::optional<Eigen::VectorXd> home;
     if (!named.empty())
       home = named_home(robot, build, arm, states, diagnostics);

@@ -1,0 +1,94 @@
+#include "core/executive/gripper_goal.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/planning/plan_goal.h"
+#include "core/trajectory/joint_line.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+using Positions = std::map<JointId, double>;
+
+std::string names_of(const Cell& cell, const std::vector<JointId>& joints) {
+  std::string names;
+  for (const JointId joint : joints) names += (names.empty() ? "" : ", ") + cell.joint(joint).name;
+  return names.empty() ? "none" : names;
+}
+
+std::optional<JointId> gripper_joint(const Cell& cell, const Arm& arm, const std::string& name) {
+  const std::string& prefix = cell.robots[arm.robot.index()].prefix;
+  for (const JointId joint : arm.gripper_joints) {
+    const std::string& known = cell.joint(joint).name;
+    if (known == name || known == prefix + name) return joint;
+  }
+  return std::nullopt;
+}
+
+Result<Positions> positions_of(const JobRequest& request, const Cell& cell, const Arm& arm) {
+  if (request.move_to->named) return arm.gripper_states.at(*request.move_to->named);
+  Positions positions;
+  Problems problems;
+  for (const auto& [name, position] : request.move_to->gripper) {
+    const std::string place = "/move_to/joints/" + name;
+    const auto joint = gripper_joint(cell, arm, name);
+    if (!joint) {
+      problems.push_back({ProblemKind::invalid, "unknown-joint", place,
+                          name + " is no gripper joint of arm " + arm.name +
+                              " (its gripper joints: " + names_of(cell, arm.gripper_joints) +
+                              "); the arm's own joints are given as a list in the order of its "
+                              "group",
+                          name});
+      continue;
+    }
+    const Joint& known = cell.joint(*joint);
+    if (!is_within_limits(known, position)) {
+      char text[160];
+      std::snprintf(text, sizeof text, "%s at %.6g is outside its limits %.6g to %.6g",
+                    known.name.c_str(), position, known.lower, known.upper);
+      problems.push_back({ProblemKind::invalid, "limit-exceeded", place, text, position});
+    }
+    positions[*joint] = position;
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+  return positions;
+}
+
+}  // namespace
+
+bool moves_gripper_only(const JobRequest& request, const Cell& cell) {
+  if (!request.move_to || !request.arms.empty()) return false;
+  const PlanGoal& goal = *request.move_to;
+  if (!goal.gripper.empty()) return true;
+  const auto arm = cell.find_arm(request.arm);
+  if (!goal.named || !arm || *goal.named == "home") return false;
+  return !cell.arm(*arm).named_states.contains(*goal.named) &&
+         cell.arm(*arm).gripper_states.contains(*goal.named);
+}
+
+Result<TrajectoryPtr> gripper_motion(const JobRequest& request, const Cell& cell,
+                                     const Configuration& rest) {
+  auto id = find_arm(cell, request.arm);
+  if (!id) {
+    for (Problem& problem : id.error()) problem.pointer = "/arm";
+    return failure(std::move(id.error()));
+  }
+  const Arm& arm = cell.arm(*id);
+  const auto positions = positions_of(request, cell, arm);
+  if (!positions) return failure(positions.error());
+  std::vector<JointId> joints = arm.joints;
+  for (const auto& [joint, position] : *positions) joints.push_back(joint);
+  const Eigen::VectorXd from = joints_of(rest, joints);
+  Eigen::VectorXd to = from;
+  Eigen::Index row = static_cast<Eigen::Index>(arm.joints.size());
+  for (const auto& [joint, position] : *positions) to[row++] = position;
+  return joint_line(cell, joints, from, to, request.speed);
+}
+
+}  // namespace armloom
