@@ -75,7 +75,8 @@ void JsonNode::fault(ProblemKind kind, std::string slug, std::string detail) con
 
 bool JsonNode::wrong_type(const char* expected) const {
   fault(ProblemKind::malformed, "wrong-type",
-        std::string("expected ") + expected + ", found " + value_->type_name());
+        std::string("expected ") + expected + ", found " + value_->type_name() +
+            (value_->is_null() ? ": leave the field out if it has no value" : ""));
   return false;
 }
 

@@ -1,6 +1,7 @@
 #include "server/codec/json_text.h"
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -52,10 +53,20 @@ class StrictBuilder {
     const std::string found = token_around(offset);
     std::string detail = out_of_range    ? "the number exceeds the range of a double"
                          : found.empty() ? "the text ends before the JSON value is complete"
-                                         : "this is not JSON";
+                                         : "this is not JSON" + remedy_for(found);
     return refuse("malformed-json", where(offset) + ": " + detail, found);
   }
 
+  [[nodiscard]] std::string remedy_for(const std::string& found) const {
+    for (const char* number : {"NaN", "nan", "Infinity", "inf"}) {
+      if (found.find(number) == std::string::npos) continue;
+      return ", which has no " + found + ": give a finite number, or leave the field out";
+    }
+    const std::size_t first = text_.find_first_not_of(" \t\r\n");
+    const bool has_bracket = first != std::string_view::npos && std::strchr("{[", text_[first]);
+    return has_bracket ? ": look for a missing quote, comma or bracket before it"
+                       : "; for YAML, send the header Content-Type: application/yaml";
+  }
   [[nodiscard]] json take() { return std::move(root_); }
   [[nodiscard]] Problem problem() const { return problem_; }
 

@@ -155,9 +155,7 @@ void register_states(const Workloads& workloads) {
         placed.place(eight);
         for (const PlacedCell::Comparison& c : placed.comparisons()) {
           if (c.b == still) continue;
-          placed.filter(c, 0xFF, [&](auto hits, const auto&) {
-            for (const filter::Hit& hit : hits) open |= hit.lanes;
-          });
+          placed.filter(c, 0xFF, [&](const filter::Hit& hit, const auto&) { open |= hit.lanes; });
         }
         return open;
       });

@@ -52,7 +52,8 @@ std::string with_fingers_alone() {
 
 // As `ros2 topic echo` prints a message.
 std::string as_echoed() {
-  std::string text = "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\njoint_names:\n";
+  std::string text =
+      "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\njoint_names:\n";
   const json whole = trajectory();
   for (const auto& name : whole["joint_names"]) text += "- " + name.get<std::string>() + "\n";
   text += "points:\n";
@@ -70,12 +71,10 @@ std::string as_echoed() {
   return text + "---\n";
 }
 
-std::string shortened() {
-  return "joint_names:\n- left_panda_joint1\n- '...'\npoints: []\n---\n";
-}
+std::string shortened() { return "joint_names:\n- left_panda_joint1\n- '...'\npoints: []\n---\n"; }
 
-class PastedTrajectory : public test::RunningServer, public ::testing::WithParamInterface<Pasted> {
-};
+class PastedTrajectory : public test::RunningServer,
+                         public ::testing::WithParamInterface<Pasted> {};
 
 TEST_P(PastedTrajectory, IsReadOrRefusedWithARemedy) {
   start(10.0);
@@ -100,10 +99,13 @@ INSTANTIATE_TEST_SUITE_P(
                wrapped(R"({"model_id": "panda", "trajectory": [{}], "trajectory_start": {}})",
                        "/trajectory/0/joint_trajectory"),
                200},
-        Pasted{"TwoTrajectories", [] { return json{{"trajectory", {{}, {}}}}.dump(); }, 422,
-               "/trajectory", "POST /batches"},
-        Pasted{"ActionGoal", wrapped(R"({"goal_id": {"stamp": 0, "id": ""}, "goal": {}})",
-                                     "/goal/trajectory"),
+        Pasted{"TwoTrajectories",
+               [] {
+                 return json{{"trajectory", {{}, {}}}}.dump();
+               },
+               422, "/trajectory", "POST /batches"},
+        Pasted{"ActionGoal",
+               wrapped(R"({"goal_id": {"stamp": 0, "id": ""}, "goal": {}})", "/goal/trajectory"),
                200},
         Pasted{"RosbridgeGoal",
                wrapped(R"({"op": "send_action_goal", "id": "g1", "action": "/left/follow",
@@ -148,8 +150,9 @@ INSTANTIATE_TEST_SUITE_P(
                [] { return std::string(R"({"arm": "left", "move_to": {"joints": [0.03]}})"); }, 422,
                "/move_to/joints", "{\"left_panda_finger_joint1\": ...}"},
         Pasted{"Yaml", as_echoed, 200, "", "", kYaml},
-        Pasted{"YamlWithTheArm", [] { return as_echoed().erase(as_echoed().size() - 4) + "arm: left\n"; },
-               200, "", "", kYaml},
+        Pasted{"YamlWithTheArm",
+               [] { return as_echoed().erase(as_echoed().size() - 4) + "arm: left\n"; }, 200, "",
+               "", kYaml},
         Pasted{"ShortenedYaml", shortened, 400, "/joint_names/1", "--full-length", kYaml},
         Pasted{"BrokenYaml", [] { return std::string("points: [1, 2\n"); }, 400, "", "line 2",
                kYaml},

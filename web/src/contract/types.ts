@@ -302,7 +302,7 @@ export interface components {
             id: components["schemas"]["JobId"];
             duration_s: number;
             /** @description The trajectory in the form of POST /jobs; submitting it gives the same motion */
-            trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
+            trajectory: components["schemas"]["JointTrajectory"];
         };
         /** @description A planned motion, not executed. */
         Plan: {
@@ -316,7 +316,7 @@ export interface components {
                 detail: string;
             }[];
             /** @description The trajectory in the form of POST /jobs */
-            trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
+            trajectory: components["schemas"]["JointTrajectory"];
             duration_s: number;
             /** @description Length of the path in joint space, rad or m */
             length: number;
@@ -756,19 +756,17 @@ export interface components {
         };
         /** @description A trajectory in the form of trajectory_msgs/JointTrajectory. */
         JointTrajectory: {
-            /** @description Names of the joints: prefix + URDF name. Joints of several arms make one synchronous motion */
+            /** @description Names of the joints: prefix + URDF name. Joints of several arms make one synchronous motion. If of an arm only gripper joints are named, it stays */
             joint_names: string[];
+            /** @description Waypoints. A single waypoint is approached from where the arm will be */
             points: components["schemas"]["Waypoint"][];
-            /** @description Ignored */
-            header?: Record<string, never>;
-        };
-        /** @description A trajectory nested as in MoveIt. */
-        RobotTrajectory: {
-            joint_trajectory: components["schemas"]["JointTrajectory"];
-            /** @description Must have no joints and no points */
-            multi_dof_joint_trajectory?: {
-                joint_names?: unknown[];
-                points?: unknown[];
+            header?: {
+                /** @description Must be 0 */
+                stamp?: components["schemas"]["Time"];
+                /** @description Ignored: joint positions have no frame */
+                frame_id?: string;
+                /** @description Ignored */
+                seq?: number;
             };
         };
         /** @description A warning or error, kept until it is acknowledged. */
@@ -956,17 +954,25 @@ export interface components {
         Waypoint: {
             /** @description Joint positions in the order of `joint_names`: rad or m */
             positions: number[];
-            /** @description Joint velocities; required unless the job has `retime`, because the motion must begin and end at rest */
+            /** @description Joint velocities; required unless the job has `retime`, because the motion must begin and end at rest. The first and last waypoint may leave out zeros */
             velocities?: number[];
             /** @description Joint accelerations, in all waypoints (quintic splines) or in none (cubic) */
             accelerations?: number[];
-            /** @description Ignored */
-            effort?: unknown[];
+            /** @description Empty or zero */
+            effort?: 0[];
             /**
-             * @description Time from the start; required unless the job has `retime`
+             * @description Time from the start; required unless the job has `retime`. If the first is above 0, the motion begins where the arm will be
              * @default null
              */
             time_from_start: components["schemas"]["Time"];
+        };
+        /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
+        Time: number | {
+            sec: number;
+            nanosec: number;
+        } | {
+            secs: number;
+            nsecs: number;
         };
         Acknowledgement: {
             /** @description The token's name; without tokens, the name that the client gave, or its address */
@@ -998,14 +1004,6 @@ export interface components {
             at_s: number;
             /** @description What the motion waits for; null if its own arms cause the pause. Such a pause is predicted to last as long again as it has lasted so far */
             waits_on: components["schemas"]["Wait"] | null;
-        };
-        /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
-        Time: number | {
-            sec: number;
-            nanosec: number;
-        } | {
-            secs: number;
-            nsecs: number;
         };
     };
     responses: never;
