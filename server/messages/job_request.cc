@@ -190,7 +190,7 @@ PartPtr<JobRequest> parts_after_trajectory() {
   return parts<JobRequest>({arm_part(), retime_part(), velocity_scaling_part()});
 }
 
-// What tools write around a trajectory: rosbridge ("op", "action", "args"), ROS 1's actions
+// Members that tools write around a trajectory: rosbridge ("op", "action", "args"), ROS 1's actions
 // ("goal_id"), RViz ("model_id", "trajectory_start").
 PartPtr<JobRequest> wrapper_parts() {
   using Request = JobRequest;

@@ -100,30 +100,41 @@ FormatPtr<WaypointRequest> waypoint_format() {
       }));
 }
 
-// Accepts only the stamp 0, which asks for a start as soon as possible.
-class NoStamp final : public CustomFormat<Anything> {
+// Accepts only the time 0. `why`: the sentence for any other time.
+class NoTime final : public CustomFormat<Anything> {
  public:
+  explicit NoTime(const char* why) : why_(why) {}
   void read(const JsonNode& node, Anything&) const override {
-    double stamp_s = 0.0;
-    time_->read(node, stamp_s);
-    if (stamp_s == 0.0) return;
-    node.invalid(
-        "not-served",
-        "a motion does not wait for a time: give the stamp 0, so that it begins as soon as "
-        "it is certified, and send the job when it may begin, or put it \"after\" another");
+    double time_s = 0.0;
+    time_->read(node, time_s);
+    if (time_s != 0.0) node.invalid("not-served", why_);
   }
   void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
-  Schema schema(Way way) const override { return time_->schema(way); }
+  Schema schema(Way) const override {
+    const Schema zero{{"const", 0}};
+    const auto zeros = [&](const char* seconds, const char* rest) {
+      return Schema{{"type", "object"},
+                    {"additionalProperties", false},
+                    {"required", {seconds, rest}},
+                    {"properties", {{seconds, zero}, {rest, zero}}}};
+    };
+    return {{"oneOf", Schema::array({zero, zeros("sec", "nanosec"), zeros("secs", "nsecs")})}};
+  }
 
  private:
+  const char* why_;
   FormatPtr<double> time_ = time_format();
 };
 
+constexpr const char* kNoStamp =
+    "a motion does not wait for a time: give the stamp 0, so that it begins as soon as it is "
+    "certified, and send the job when it may begin, or put it \"after\" another";
+
 FormatPtr<Anything> header_format() {
   return object<Anything>({
-      ignored<Anything>("stamp", make_format<NoStamp>(), "Must be 0"),
+      ignored<Anything>("stamp", make_format<NoTime>(kNoStamp), "Must be 0"),
       ignored<Anything>("frame_id", text(), "Ignored: joint positions have no frame"),
-      ignored<Anything>("seq", anything("integer"), "Ignored"),
+      ignored<Anything>("seq", integer(0, std::numeric_limits<int>::max()), "Ignored"),
   });
 }
 
@@ -298,20 +309,6 @@ class NoTolerances final : public CustomFormat<Anything> {
   }
 };
 
-class NoTimeTolerance final : public CustomFormat<Anything> {
- public:
-  void read(const JsonNode& node, Anything&) const override {
-    double value_s = 0.0;
-    time_->read(node, value_s);
-    if (value_s > 0.0) node.invalid("not-served", kNoTolerance);
-  }
-  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
-  Schema schema(Way way) const override { return time_->schema(way); }
-
- private:
-  FormatPtr<double> time_ = time_format();
-};
-
 PartPtr<TrajectoryRequest> action_goal_parts() {
   using Trajectory = TrajectoryRequest;
   return parts<Trajectory>({
@@ -325,7 +322,7 @@ PartPtr<TrajectoryRequest> action_goal_parts() {
 }  // namespace
 
 FormatPtr<formats::Anything> no_tolerances() { return make_format<NoTolerances>(); }
-FormatPtr<formats::Anything> no_time_tolerance() { return make_format<NoTimeTolerance>(); }
+FormatPtr<formats::Anything> no_time_tolerance() { return make_format<NoTime>(kNoTolerance); }
 
 FormatPtr<TrajectoryRequest> action_goal_format() {
   static const FormatPtr<TrajectoryRequest> format =

@@ -337,6 +337,16 @@ test('objects are added, moved and removed', async () => {
   await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
 });
 
+test('all objects are set and removed at once', async () => {
+  const stale = {headers: {'If-Match': '"nothing"'}};
+  const body = example(`${v1}/scene`, 'PUT', 'voxels');
+  const {version} = await call(200, 'PUT', `${v1}/scene`, {body});
+  await call(409, 'PUT', `${v1}/scene`, {body: {...body, version: version - 1}});
+  await call(412, 'PUT', `${v1}/scene`, {body, ...stale});
+  await call(412, 'DELETE', `${v1}/scene/objects`, stale);
+  await call(200, 'DELETE', `${v1}/scene/objects`);
+});
+
 test('speed is changed, faults are injected and removed', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});

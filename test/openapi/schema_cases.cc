@@ -64,6 +64,7 @@ std::vector<Incoming> all_incoming() {
           incoming("ObjectRequest", *object_request_format()),
           incoming("NamedObjectRequest", *named_object_request_format()),
           incoming("FaultRequest", *fault_request_format()),
+          incoming("SceneRequest", *scene_request_format()),
           incoming("Speed", *speed_format()),
           incoming("Goal", *plan_goal_format()),
           incoming("cell file", cell_format()),

@@ -255,7 +255,7 @@ TEST_F(Import, WritesACellThatDoesNotLoadAndExitsWithTwo) {
               AllOf(HasSubstr("No homes were found at which all arms keep their clearances"),
                     HasSubstr("are closer than their clearance (0.02 m) at "),
                     HasSubstr("move the bases apart")));
-  EXPECT_THAT(made.err, HasSubstr("apart at home"));
+  EXPECT_THAT(made.err, HasSubstr(": overlap by "));
 }
 
 TEST_F(Import, NamesTheInvalidOption) {

@@ -77,7 +77,7 @@ TEST(JobTerms, InvalidValuesAreRefusedWithTheirPointer) {
 
 TEST(JobTerms, SchemaStatesTheDefaults) {
   const Schema in = job_request_format()->schema(Way::in);
-  const Schema& properties = in["$of"]["properties"];
+  const Schema& properties = in["anyOf"][0]["$of"]["properties"];
   EXPECT_EQ(properties["priority"]["default"], 0);
   EXPECT_EQ(properties["on_timeout"]["default"], "abort");
   EXPECT_EQ(properties["move_to_start"]["default"], "none");

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         Pasted{"PlaceInAnActionGoal",
                [] {
                  json goal = trajectory();
-                 goal["points"][0]["positions"][0] = 1.0;
+                 for (json& point : goal["points"]) point["positions"][0] = 1.0;
                  return json{{"goal", {{"trajectory", goal}}}}.dump();
                },
                422, "/goal/trajectory/points/0/positions/0", "will be at 0 rad"},

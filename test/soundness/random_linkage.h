@@ -39,6 +39,8 @@ struct RandomLinkage {
       const bool ball = random() % 5 == 0;
       for (double& x : capsule.half) x = ball ? 0.0 : uniform(random, -0.2, 0.2);
       capsule.radius_up = static_cast<float>(uniform(random, 0.0, 0.1));
+      const double half_m = Eigen::Map<const Eigen::Vector3d>(capsule.half).norm();
+      capsule.ball_up = capsule.radius_up + static_cast<float>(half_m) + 1e-6F;
       const auto& chain = chains[static_cast<std::size_t>(capsule.frame)];
       capsule.ancestors_begin = static_cast<int>(ancestors.size());
       capsule.depth = static_cast<int>(chain.size());

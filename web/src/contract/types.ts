@@ -762,7 +762,17 @@ export interface components {
             points: components["schemas"]["Waypoint"][];
             header?: {
                 /** @description Must be 0 */
-                stamp?: components["schemas"]["Time"];
+                stamp?: 0 | {
+                    /** @constant */
+                    sec: 0;
+                    /** @constant */
+                    nanosec: 0;
+                } | {
+                    /** @constant */
+                    secs: 0;
+                    /** @constant */
+                    nsecs: 0;
+                };
                 /** @description Ignored: joint positions have no frame */
                 frame_id?: string;
                 /** @description Ignored */
@@ -966,14 +976,6 @@ export interface components {
              */
             time_from_start: components["schemas"]["Time"];
         };
-        /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
-        Time: number | {
-            sec: number;
-            nanosec: number;
-        } | {
-            secs: number;
-            nsecs: number;
-        };
         Acknowledgement: {
             /** @description The token's name; without tokens, the name that the client gave, or its address */
             who: string;
@@ -1004,6 +1006,14 @@ export interface components {
             at_s: number;
             /** @description What the motion waits for; null if its own arms cause the pause. Such a pause is predicted to last as long again as it has lasted so far */
             waits_on: components["schemas"]["Wait"] | null;
+        };
+        /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
+        Time: number | {
+            sec: number;
+            nanosec: number;
+        } | {
+            secs: number;
+            nsecs: number;
         };
     };
     responses: never;
