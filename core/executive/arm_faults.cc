@@ -17,7 +17,8 @@ Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request) {
   const auto arm = cell_->find_arm(request.arm);
   if (!arm) {
     return failure(Problem{ProblemKind::invalid, "unknown-arm", "/arm",
-                           "no arm is named \"" + request.arm + "\"", request.arm});
+                           "no arm is named \"" + request.arm + "\": GET /arms lists the arms",
+                           request.arm});
   }
   ArmFault fault{
       .kind = request.kind, .from = request.at.value_or(now), .until = {}, .value = request.value};

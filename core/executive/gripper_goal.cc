@@ -31,6 +31,18 @@ std::optional<JointId> gripper_joint(const Cell& cell, const Arm& arm, const std
   return std::nullopt;
 }
 
+std::string why_not_moved(const Cell& cell, const Arm& arm, const std::string& name) {
+  const Robot& robot = cell.robots[arm.robot.index()];
+  for (const std::string& known : {name, robot.prefix + name}) {
+    const auto still = robot.joints_without_value.find(known);
+    if (still == robot.joints_without_value.end()) continue;
+    return known + " " + still->second + ", and has no value of its own: leave it out";
+  }
+  return name + " is no gripper joint of arm " + arm.name +
+         " (its gripper joints: " + names_of(cell, arm.gripper_joints) +
+         "); the arm's own joints are given as a list in the order of its group";
+}
+
 Result<Positions> positions_of(const JobRequest& request, const Cell& cell, const Arm& arm) {
   if (request.move_to->named) return arm.gripper_states.at(*request.move_to->named);
   Positions positions;
@@ -39,12 +51,8 @@ Result<Positions> positions_of(const JobRequest& request, const Cell& cell, cons
     const std::string place = "/move_to/joints/" + name;
     const auto joint = gripper_joint(cell, arm, name);
     if (!joint) {
-      problems.push_back({ProblemKind::invalid, "unknown-joint", place,
-                          name + " is no gripper joint of arm " + arm.name +
-                              " (its gripper joints: " + names_of(cell, arm.gripper_joints) +
-                              "); the arm's own joints are given as a list in the order of its "
-                              "group",
-                          name});
+      problems.push_back(
+          {ProblemKind::invalid, "unknown-joint", place, why_not_moved(cell, arm, name), name});
       continue;
     }
     const Joint& known = cell.joint(*joint);

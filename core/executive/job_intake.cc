@@ -61,9 +61,16 @@ void find_other_arm(const Cell& cell, const std::string& name,
                       name});
 }
 
+bool is_too_fast(const Problems& problems) {
+  return std::ranges::any_of(problems, [](const Problem& problem) {
+    return problem.slug == "velocity-limit" || problem.slug == "acceleration-limit";
+  });
+}
+
 Problem key_in_use(const std::string& key) {
-  return Problem{ProblemKind::conflict, "id-in-use", "/id",
-                 "id \"" + key + "\" is in use by another job", key};
+  return Problem{
+      ProblemKind::conflict, "id-in-use", "/id",
+      "id \"" + key + "\" is in use by another job: give another one, or leave \"id\" out", key};
 }
 
 }  // namespace
@@ -159,10 +166,19 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
       *motion = with_whole_turns(*cell_, std::move(*motion), ahead.rest);
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
-      const bool begins_anywhere =
-          ahead.begins_anywhere || request.terms.move_to_start == MoveToStart::plan;
-      if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
+      if (!ahead.begins_anywhere) {
+        const bool is_moved = request.terms.move_to_start == MoveToStart::plan;
+        find_start_elsewhere(*cell_, **motion, ahead.rest, found,
+                             is_moved ? Compared::gripper_joints : Compared::all_joints);
+      }
       motions.push_back(std::move(*motion));
+    } else if (is_too_fast(found) && !ahead.begins_anywhere && !asked.retime &&
+               request.terms.move_to_start != MoveToStart::plan &&
+               !has_implicit_start(asked, *cell_)) {
+      // A slower motion would not pass either.
+      Problems elsewhere;
+      find_start_elsewhere(*cell_, asked, ahead.rest, elsewhere);
+      found.insert(found.begin(), elsewhere.begin(), elsewhere.end());
     }
     add_below(place, std::move(found), problems);
   }

@@ -86,8 +86,10 @@ Result<JobId> JobRegister::not_ended(const std::string& key) const {
   }
   const JobState state = scheduler_.find(*id)->state();
   if (is_terminal(state)) {
-    return failure(Problem{ProblemKind::conflict, "job-has-ended", "",
-                           "job \"" + key + "\" has ended: " + to_string(state), key});
+    return failure(Problem{
+        ProblemKind::conflict, "job-has-ended", "",
+        "job \"" + key + "\" has ended: " + to_string(state) + "; post it again under another id",
+        key});
   }
   return *id;
 }

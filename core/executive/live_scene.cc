@@ -37,7 +37,7 @@ std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell,
 
 Problem no_object(const std::string& name) {
   return Problem{ProblemKind::not_found, "unknown-object", "",
-                 "no object is named \"" + name + "\"", name};
+                 "no object is named \"" + name + "\": GET /scene lists the objects", name};
 }
 
 Problem scene_full(std::size_t count) {

@@ -1,5 +1,6 @@
 #include "core/executive/start_elsewhere.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "core/base/rounding_noise.h"
 #include "core/base/whole_turns.h"
+#include "core/trajectory/implicit_start.h"
 
 namespace armloom {
 
@@ -39,25 +41,57 @@ TrajectoryPtr with_whole_turns(const Cell& cell, TrajectoryPtr motion, const Con
                                             motion->timed_here());
 }
 
+namespace {
+
+// Adds a problem if joint `j` of the trajectory begins elsewhere than it `stands`.
+void compare_start(const Cell& cell, JointId id, std::size_t j, double begins, double stands,
+                   Problems& problems) {
+  const Joint& joint = cell.joint(id);
+  if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) return;
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "waypoint 0, %s: begins at %.6g %s, but the joint will be at %.6g %s after the jobs "
+      "accepted for the arm",
+      joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
+      without_rounding_noise(stands), joint.unit().c_str());
+  std::string detail = text;
+  if (joint.kind != JointKind::prismatic) {
+    detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);
+  }
+  const bool is_gripper =
+      joint.arm && std::ranges::count(cell.arm(*joint.arm).gripper_joints, id) > 0;
+  detail += is_gripper
+                ? "; begin there, or move the gripper there first (\"move_to\")"
+                : "; begin there, or give the first waypoint a time above 0 in which the arm "
+                  "may get to it, or let the server move the arm to the start "
+                  "(\"move_to_start\": \"plan\")";
+  problems.push_back({ProblemKind::invalid, "start-mismatch",
+                      "/points/0/positions/" + std::to_string(j), std::move(detail), begins});
+}
+
+}  // namespace
+
 void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
-                          Problems& problems) {
+                          Problems& problems, Compared compared) {
   for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    const Joint& joint = cell.joint(trajectory.joints()[j]);
-    const double begins = trajectory.start()[static_cast<Eigen::Index>(j)];
-    const double stands = rest[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
-    if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) continue;
-    char text[256];
-    std::snprintf(
-        text, sizeof text,
-        "waypoint 0, %s: begins at %.6g %s, but the joint will be at %.6g %s after the jobs "
-        "accepted for the arm",
-        joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
-        without_rounding_noise(stands), joint.unit().c_str());
-    std::string detail = text;
-    if (joint.kind != JointKind::prismatic)
-      detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);
-    problems.push_back({ProblemKind::invalid, "start-mismatch",
-                        "/points/0/positions/" + std::to_string(j), std::move(detail), begins});
+    const JointId id = trajectory.joints()[j];
+    const std::optional<ArmId> arm = cell.joint(id).arm;
+    const bool is_gripper = arm && std::ranges::count(cell.arm(*arm).gripper_joints, id) > 0;
+    if (compared == Compared::gripper_joints && !is_gripper) continue;
+    compare_start(cell, id, j, trajectory.start()[static_cast<Eigen::Index>(j)],
+                  rest[static_cast<Eigen::Index>(id.index())], problems);
+  }
+}
+
+void find_start_elsewhere(const Cell& cell, const TrajectoryRequest& request,
+                          const Configuration& rest, Problems& problems) {
+  if (request.points.empty()) return;
+  const std::vector<double>& begins = request.points.front().positions;
+  for (std::size_t j = 0; j < std::min(begins.size(), request.joint_names.size()); ++j) {
+    const auto id = find_joint(request.joint_names[j], request.arm, cell);
+    if (!id || !std::isfinite(begins[j])) continue;
+    compare_start(cell, *id, j, begins[j], rest[static_cast<Eigen::Index>(id->index())], problems);
   }
 }
 

@@ -30,7 +30,8 @@ Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
   for (const auto& [state, q] : arm.named_states) {
     if (state != "home") known += ", " + state;
   }
-  for (const auto& [state, positions] : arm.gripper_states) known += ", " + state + " (gripper)";
+  for (const auto& [state, positions] : arm.gripper_states)
+    known += ", " + state + " (of the gripper: in a job for one \"arm\")";
   return fault("unknown-state", "/named",
                "arm " + arm.name + " has no named state " + name +
                    did_you_mean(name, arm.named_states) + "; it has " + known,
@@ -140,8 +141,8 @@ Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& sa
   if (said.named) return named_state(arm, *said.named);
   if (!said.gripper.empty()) {
     return fault("not-served", "/joints",
-                 "only a job moves gripper joints: send the goal as a job, or give the positions "
-                 "of the arm's joints as a list",
+                 "gripper joints move by a job for one \"arm\": send it as POST /jobs, or give the "
+                 "positions of the arm's joints as a list",
                  said.gripper.begin()->first);
   }
   if (!said.joints) {

@@ -90,8 +90,8 @@ std::optional<JointId> find_joint(const std::string& name, const std::string& ar
 Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemList& problems) {
   Names names;
   if (request.joint_names.empty()) {
-    problems.add(
-        {ProblemKind::invalid, "empty-trajectory", "/joint_names", "joint_names is empty", 0.0});
+    problems.add({ProblemKind::invalid, "empty-trajectory", "/joint_names",
+                  "joint_names is empty: name the joints in the order of positions", 0.0});
   }
   std::set<JointId> named;
   std::set<ArmId> arms;
@@ -124,7 +124,8 @@ Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemL
 bool check_count(const TrajectoryRequest& request, ProblemList& problems) {
   const std::size_t count = request.points.size();
   if (count == 0) {
-    problems.add({ProblemKind::invalid, "empty-trajectory", "/points", "points is empty", 0.0});
+    problems.add({ProblemKind::invalid, "empty-trajectory", "/points",
+                  "points is empty: give at least one waypoint (positions, time_from_start)", 0.0});
   } else if (count == 1) {
     problems.add(
         {ProblemKind::invalid, "too-few-points", "/points",
@@ -133,10 +134,11 @@ bool check_count(const TrajectoryRequest& request, ProblemList& problems) {
          "for which the server plans the path",
          1.0});
   } else if (count > kWaypointsMax) {
-    problems.add(
-        {ProblemKind::too_large, "too-many-points", "/points",
-         std::to_string(count) + " waypoints are more than " + std::to_string(kWaypointsMax),
-         static_cast<double>(count)});
+    problems.add({ProblemKind::too_large, "too-many-points", "/points",
+                  std::to_string(count) + " waypoints are more than " +
+                      std::to_string(kWaypointsMax) +
+                      ": sample the path more coarsely, or send it in parts (\"after\")",
+                  static_cast<double>(count)});
   } else {
     return true;
   }

@@ -26,9 +26,6 @@ struct Names {
   std::vector<ArmId> arms;  // ascending, each once
 };
 
-// Returns the joint of this name, with or without the prefix of the robot of `arm`.
-[[nodiscard]] std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
-                                                const Cell& cell);
 [[nodiscard]] Names resolve_names(const TrajectoryRequest& request, const Cell& cell,
                                   ProblemList& problems);
 // Returns true if the number of waypoints is allowed.

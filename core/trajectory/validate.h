@@ -42,6 +42,10 @@ struct TrajectoryRequest {
 // factor.
 void slow_down(TrajectoryRequest& request, double factor);
 
+// Returns the joint of this name, with or without the prefix of the robot of `arm`.
+[[nodiscard]] std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
+                                                const Cell& cell);
+
 // Larger requests are refused before anything is computed.
 inline constexpr std::size_t kWaypointsMax = 10'000;
 inline constexpr double kDurationMax_s = 3600.0;

@@ -49,7 +49,8 @@ std::vector<std::string> CellMeshes::content_types() {
 
 Response CellMeshes::answer(const Request& request, const std::string& name) {
   const auto known = places_.find(name);
-  if (known == places_.end()) return not_found(name, "the cell has no mesh \"" + name + "\"");
+  if (known == places_.end())
+    return not_found(name, "the cell has no mesh \"" + name + "\": GET /cell names the meshes");
   Place& place = known->second;
   const auto file = OpenFile::open(place.file, kMaxMeshBytes);
   if (!file && file.error() == NoFile::busy) return refusal_response(too_many_files());

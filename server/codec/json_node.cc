@@ -97,14 +97,18 @@ bool JsonNode::is_object() const { return value_->is_object() || wrong_type("an 
 bool JsonNode::object(std::span<const std::string_view> known,
                       std::span<const std::string_view> refused) const {
   if (!is_object()) return false;
+  // A refused key has a better reason than unknown ones.
+  if (std::ranges::any_of(refused, [this](std::string_view key) { return has(key); })) return true;
+  constexpr std::size_t kListed = 20;
   for (auto it = value_->begin(); it != value_->end(); ++it) {
     const std::string_view key = it.key();
-    if (std::ranges::count(known, key) + std::ranges::count(refused, key) > 0) continue;
+    if (std::ranges::count(known, key) > 0) continue;
     std::string list;
-    for (const std::string_view name : known) {
+    for (const std::string_view name : known.first(std::min(known.size(), kListed))) {
       list += list.empty() ? "" : ", ";
       list += name;
     }
+    if (known.size() > kListed) list += ", ...";
     const auto now = renamed(it.key(), known);
     const auto meant = nearest_name(it.key(), known);
     JsonNode(it.value(), *this, it.key())

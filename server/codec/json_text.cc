@@ -42,7 +42,9 @@ class StrictBuilder {
     const auto [place, is_new] = level.value->emplace(name, nullptr);
     level.key = name;
     level.slot = &*place;
-    if (!is_new) return refuse("duplicate-key", "the key \"" + name + "\" occurs twice", name);
+    if (!is_new)
+      return refuse("duplicate-key", "the key \"" + name + "\" occurs twice: remove one of the two",
+                    name);
     return true;
   }
 
@@ -51,7 +53,8 @@ class StrictBuilder {
     const std::size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
     const bool out_of_range = error.id == 406;
     const std::string found = token_around(offset);
-    std::string detail = out_of_range    ? "the number exceeds the range of a double"
+    std::string detail = out_of_range
+                             ? "the number exceeds the range of a double: give a smaller one"
                          : found.empty() ? "the text ends before the JSON value is complete"
                                          : "this is not JSON" + remedy_for(found);
     return refuse("malformed-json", where(offset) + ": " + detail, found);
@@ -64,8 +67,9 @@ class StrictBuilder {
     }
     const std::size_t first = text_.find_first_not_of(" \t\r\n");
     const bool has_bracket = first != std::string_view::npos && std::strchr("{[", text_[first]);
-    return has_bracket ? ": look for a missing quote, comma or bracket before it"
-                       : "; for YAML, send the header Content-Type: application/yaml";
+    return has_bracket
+               ? ": look for a quote, comma or bracket that is missing or too many, here or before"
+               : "; for YAML, send the header Content-Type: application/yaml";
   }
   [[nodiscard]] json take() { return std::move(root_); }
   [[nodiscard]] Problem problem() const { return problem_; }
@@ -100,7 +104,8 @@ class StrictBuilder {
   bool open(json container) {
     if (levels_.size() >= kJsonDepthMax) {
       return refuse_size("nesting-too-deep",
-                         "nested more than " + std::to_string(kJsonDepthMax) + " levels deep");
+                         "nested more than " + std::to_string(kJsonDepthMax) +
+                             " levels deep: look for brackets that are not closed");
     }
     if (!count_part()) return false;
     json* place = &root_;

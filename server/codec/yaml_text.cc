@@ -137,8 +137,7 @@ Result<std::string> json_of_yaml(std::string_view text) try {
     if (!document.IsDefined() || document.IsNull()) continue;
     if (found) {
       return failure(malformed("the text has several documents, found \"---\" at " +
-                               place_of(document.Mark()) +
-                               ": send each as a request of its own, or all as POST /batches"));
+                               place_of(document.Mark()) + ": send each as a request of its own"));
     }
     found = Conversion().convert(document);
   }

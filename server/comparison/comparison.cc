@@ -128,8 +128,10 @@ Result<ComparisonView> Comparison::start(Question question) {
   }
   const auto& jobs = question.taken.jobs;
   if (jobs.empty()) {
-    return failure(Problem{ProblemKind::conflict, "no-jobs", "/since_s",
-                           "no job was submitted since then, or since the server started"});
+    return failure(
+        Problem{ProblemKind::conflict, "no-jobs", "/since_s",
+                "no job was submitted since then: give a smaller since_s, or leave it out; "
+                "without it, none was submitted since the server started"});
   }
   ComparisonView view;
   view.jobs = jobs.size();

@@ -39,10 +39,12 @@ bool Control::renew(std::chrono::milliseconds lease, Time now) {
 
 Result<void> Control::check(const std::string& key) const {
   if (holder_ && equal_in_constant_time(key, key_)) return {};
-  return failure(Problem{ProblemKind::conflict, "not-in-control", "/control",
-                         holder_
-                             ? holder_->who + " has control; this key is not valid"
-                             : std::string("no client has control: take it with POST /control")});
+  return failure(Problem{
+      ProblemKind::conflict, "not-in-control", "/control",
+      holder_ ? holder_->who +
+                    " has control, and this key is not valid: take control with POST /control "
+                    "(\"take\": true)"
+              : std::string("no client has control: take it with POST /control")});
 }
 
 }  // namespace armloom

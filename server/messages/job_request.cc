@@ -1,6 +1,7 @@
 #include "server/messages/job_request.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/base/plain_name.h"
@@ -179,9 +180,10 @@ PartPtr<JobRequest> label_parts() {
             "Ids of jobs that must succeed first"),
       not_served<Request>({"steps", "not-served",
                            "\"steps\" are not supported by this version: give one \"trajectory\""}),
-      not_served<Request>({"sub_trajectory", "not-served",
-                           "a task's solution has several trajectories: send each of them as a job "
-                           "of its own (POST /batches), in the order of the list"}),
+      not_served<Request>(
+          {"sub_trajectory", "not-served",
+           "a task's solution has several pieces: send the \"trajectory\" of each as a "
+           "job of its own (POST /batches), in the order of the list"}),
   });
 }
 
@@ -208,6 +210,7 @@ PartPtr<JobRequest> wrapper_parts() {
   };
   const auto goal_id = object<GoalId>({
       ignored<GoalId>("stamp", time_format(), "Ignored: the time of sending"),
+      ignored<GoalId>("uuid", list(integer(0, 255)), "Ignored: `id` names the job"),
       field("id", &GoalId::id, no_id, "Empty: `id` names the job"),
   });
   return parts<Request>({
@@ -216,7 +219,17 @@ PartPtr<JobRequest> wrapper_parts() {
       only("action_type", "control_msgs/action/FollowJointTrajectory"),
       ignored<Request>("feedback", flag(), "Ignored: progress is in the events of every job"),
       ignored<Request>("goal_id", goal_id, "As in ROS 1"),
+      ignored<Request>("header", anything("object"), "Ignored: the time of sending"),
+      ignored<Request>("compression", text(), "Ignored"),
+      ignored<Request>("fragment_size", integer(0, std::numeric_limits<int>::max()), "Ignored"),
       ignored<Request>("model_id", text(), "Ignored"),
+      ignored<Request>("controller_names", list(text()),
+                       "Ignored: the joint names say which arm moves"),
+      ignored<Request>("info", anything("object"), "Ignored"),
+      ignored<Request>("execution_info", anything("object"), "Ignored"),
+      not_served<Request>({"scene_diff", "not-served",
+                           "a job does not change the scene: use PUT /scene/objects/{name} or PUT "
+                           "/scene, and leave this out"}),
       ignored<Request>("trajectory_start", anything("object"),
                        "Ignored: the first waypoint is the start"),
       tolerance_parts<Request>(),
@@ -255,10 +268,10 @@ FormatPtr<JobRequest> plain_job_format() {
                 list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
                 "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
                 "arm that arrives first takes the job"),
-          wrapper_parts(),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to", "goal", "args"}),
           parts_after_trajectory(),
+          wrapper_parts(),
       }));
 }
 

@@ -286,6 +286,10 @@ class NoTolerances final : public CustomFormat<Anything> {
   void read(const JsonNode& node, Anything&) const override {
     node.each([](const JsonNode& joint) {
       if (!joint.object({"name", "position", "velocity", "acceleration"})) return;
+      joint.optional("name", [](const JsonNode& n) {
+        std::string name;
+        (void)n.read(name);
+      });
       for (const char* quantity : {"position", "velocity", "acceleration"}) {
         joint.optional(quantity, [](const JsonNode& n) {
           double value = 0.0;

@@ -119,6 +119,26 @@ INSTANTIATE_TEST_SUITE_P(
                  return json{{"goal", {{"trajectory", goal}}}}.dump();
                },
                422, "/goal/trajectory/points/0/positions/0", "will be at 0 rad"},
+        Pasted{"StartElsewhereThatIsAlsoTooFast",
+               with(R"({"trajectory": {"joint_names": ["left_panda_joint1", "left_panda_joint2",
+                 "left_panda_joint3", "left_panda_joint4", "left_panda_joint5", "left_panda_joint6",
+                 "left_panda_joint7"], "points": [
+                 {"positions": [1, -1.2, 0, -2.6, 0, 1.6, 0.785], "time_from_start": 0},
+                 {"positions": [0, -1.2, 0, -2.6, 0, 1.6, 0.785], "time_from_start": 0.1}]}})"),
+               422, "/trajectory/points/0/positions/0", "move_to_start"},
+        Pasted{"GripperElsewhere",
+               [] {
+                 json body = json::parse(with_fingers_alone());
+                 body["trajectory"]["points"][0]["positions"][0] = 0.02;
+                 body["move_to_start"] = "plan";
+                 return body.dump();
+               },
+               422, "/trajectory/points/0/positions/0", "move the gripper there first"},
+        Pasted{"SubTrajectoryOfATask",
+               wrapped(R"({"info": {}, "execution_info": {}, "scene_diff": {}})", "/trajectory"),
+               422, "/scene_diff", "leave this out"},
+        Pasted{"ActionGoalOfRos2",
+               wrapped(R"({"goal_id": {"uuid": [1, 2]}, "goal": {}})", "/goal/trajectory"), 200},
         Pasted{"NoTolerance", with(R"({"goal_tolerance": [{"name": "a", "position": 0}],
                                        "goal_time_tolerance": {"sec": 0, "nanosec": 0}})"),
                200},
@@ -149,6 +169,12 @@ INSTANTIATE_TEST_SUITE_P(
         Pasted{"FingersAsList",
                [] { return std::string(R"({"arm": "left", "move_to": {"joints": [0.03]}})"); }, 422,
                "/move_to/joints", "{\"left_panda_finger_joint1\": ...}"},
+        Pasted{"FollowingFinger",
+               [] {
+                 return std::string(
+                     R"({"arm": "left", "move_to": {"joints": {"panda_finger_joint2": 0.03}}})");
+               },
+               422, "/move_to/joints/panda_finger_joint2", "leave it out"},
         Pasted{"Yaml", as_echoed, 200, "", "", kYaml},
         Pasted{"YamlWithTheArm",
                [] { return as_echoed().erase(as_echoed().size() - 4) + "arm: left\n"; }, 200, "",
