@@ -28,7 +28,7 @@ namespace {
 using nlohmann::json;
 using Random = std::mt19937_64;
 
-constexpr int kWhole = 400;    // valid values of each format
+constexpr int kWhole = 4000;   // valid values of each format
 constexpr int kSpoilt = 2500;  // values with one fault
 
 std::size_t below(Random& random, std::size_t count) { return random() % count; }
