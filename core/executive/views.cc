@@ -56,7 +56,10 @@ std::optional<std::string> opens(const Wait& wait, bool in_vain, const Cell& cel
 
 // Hint on how to unblock a job that waits for an object or a fixed link.
 std::string opens(const Proximity& proximity, const Cell& cell) {
-  const bool link = cell.find_link(proximity.body_b).has_value();
+  const auto link_a = cell.find_link(proximity.body_a), link = cell.find_link(proximity.body_b);
+  if (link_a && link && cell.is_own(*link_a, *link)) {
+    return "both links are of the same arm: change the trajectory to unblock this job";
+  }
   return proximity.body_b + " does not move: change the trajectory" +
          (link ? "" : ", or move or delete the object,") + " to unblock this job";
 }

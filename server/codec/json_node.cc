@@ -193,6 +193,9 @@ bool JsonNode::read_within(double& out, double lowest, double highest) const {
 
 bool JsonNode::read_numbers(double* out, std::size_t size) const {
   std::vector<double> numbers;
+  const std::string expected = "an array of " + std::to_string(size) +
+                               (size == 1 ? " number, in brackets" : " numbers, in brackets");
+  if (!value_->is_array()) return wrong_type(expected.c_str());
   if (!read(numbers)) return false;
   if (numbers.size() != size) {
     invalid("wrong-size", "expected " + std::to_string(size) + " numbers, found " +

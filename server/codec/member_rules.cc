@@ -30,10 +30,11 @@ class CountRule final : public AnyPart {
     const auto count =
         std::ranges::count_if(keys_, [&](const std::string& key) { return object.has(key); });
     if (count == 1 || (count == 0 && how_many_ == HowMany::at_most_one)) return;
-    const std::string expected = how_many_ == HowMany::exactly_one ? "exactly" : "at most";
-    object.invalid(
-        how_many_ == HowMany::exactly_one ? "not-exactly-one" : "more-than-one",
-        expected + " one of " + listed(keys_) + " is required, found " + std::to_string(count));
+    const bool is_exact = how_many_ == HowMany::exactly_one;
+    object.invalid(is_exact ? "not-exactly-one" : "more-than-one",
+                   std::string(is_exact ? "exactly one of " : "at most one of ") + listed(keys_) +
+                       (is_exact ? " is required, found " : " is allowed, found ") +
+                       std::to_string(count));
   }
   void describe_any(Schema& object, const void*, Way) const override {
     if (how_many_ == HowMany::exactly_one) {

@@ -247,7 +247,7 @@ Command jobs_command(CLI::App& app) {
 }
 
 Command why_command(CLI::App& app) {
-  const auto options = std::make_shared<WhyOptions>();
+  const auto options = std::make_shared<OneJobOptions>();
   CLI::App* command = app.add_subcommand(
       "why", "explain a job of a running server: state, what it waits for, how it will end");
   command->add_option("job", options->job, "id of the job")->required();
@@ -255,8 +255,24 @@ Command why_command(CLI::App& app) {
   return {command, [options] { return explain_job(*options); }};
 }
 
+Command cancel_command(CLI::App& app) {
+  const auto options = std::make_shared<OneJobOptions>();
+  CLI::App* command = app.add_subcommand("cancel", "cancel a job of a running server");
+  command->add_option("job", options->job, "id of the job")->required();
+  add_server(*command, options->server);
+  return {command, [options] { return cancel_remote_job(*options); }};
+}
+
+Command resume_command(CLI::App& app) {
+  const auto options = std::make_shared<ArmsOptions>();
+  CLI::App* command = app.add_subcommand("resume", "resume stopped arms of a running server");
+  command->add_option("arms", options->arms, "arms to resume (default: all)");
+  add_server(*command, options->server);
+  return {command, [options] { return resume_remote_arms(*options); }};
+}
+
 Command stop_command(CLI::App& app) {
-  const auto options = std::make_shared<StopOptions>();
+  const auto options = std::make_shared<ArmsOptions>();
   CLI::App* command = app.add_subcommand(
       "stop", "stop arms of a running server (an operational stop, no emergency stop)");
   command->add_option("arms", options->arms, "arms to stop (default: all)");
@@ -352,7 +368,7 @@ std::vector<Command> add_commands(CLI::App& app) {
       check_command(app),   plan_command(app),     reach_command(app),   simulate_command(app),
       compare_command(app), replay_command(app),   history_command(app), token_command(app),
       audit_command(app),   jobs_command(app),     why_command(app),     stop_command(app),
-      events_command(app),
+      resume_command(app),  cancel_command(app),   events_command(app),
   };
   refuse_empty_values(app);
   return commands;

@@ -25,8 +25,7 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
     }
     std::vector<TrajectoryPtr> motions;
     for (const auto& [where, asked] : file.jobs[i].job.motions()) {
-      // Where a motion with an implicit start begins is known only in the run, which checks it
-      // again.
+      // Only the run knows where a motion with an implicit start begins, and checks it again.
       auto complete = has_implicit_start(asked, cell)
                           ? with_implicit_start(asked, cell, cell.home())
                           : Result<TrajectoryRequest>(asked);

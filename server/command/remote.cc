@@ -68,6 +68,17 @@ int send(const RemoteOptions& options, const char* method, const std::string& ta
   return std::cout ? kExitDone : kExitNotWritten;
 }
 
+// Sends a command to each of the arms, or to all.
+int send_to_arms(const ArmsOptions& options, const std::string& command) {
+  if (options.arms.empty()) return send(options.server, "POST", command);
+  int code = kExitDone;
+  for (const std::string& arm : options.arms) {
+    const int one = send(options.server, "POST", "/arms/" + url_segment(arm) + command);
+    if (code == kExitDone) code = one;
+  }
+  return code;
+}
+
 }  // namespace
 
 int list_remote_jobs(const JobsOptions& options) {
@@ -77,19 +88,16 @@ int list_remote_jobs(const JobsOptions& options) {
   return send(options.server, "GET", "/jobs" + query);
 }
 
-int explain_job(const WhyOptions& options) {
+int explain_job(const OneJobOptions& options) {
   return send(options.server, "GET", "/jobs/" + url_segment(options.job));
 }
 
-int stop_remote_arms(const StopOptions& options) {
-  if (options.arms.empty()) return send(options.server, "POST", "/stop");
-  int code = kExitDone;
-  for (const std::string& arm : options.arms) {
-    const int one = send(options.server, "POST", "/arms/" + url_segment(arm) + "/stop");
-    if (code == kExitDone) code = one;
-  }
-  return code;
+int cancel_remote_job(const OneJobOptions& options) {
+  return send(options.server, "DELETE", "/jobs/" + url_segment(options.job));
 }
+
+int stop_remote_arms(const ArmsOptions& options) { return send_to_arms(options, "/stop"); }
+int resume_remote_arms(const ArmsOptions& options) { return send_to_arms(options, "/resume"); }
 
 int print_events(const EventsOptions& options) {
   const auto server = read_server_url(options.server.url);

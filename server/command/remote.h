@@ -21,18 +21,21 @@ struct JobsOptions {
 };
 int list_remote_jobs(const JobsOptions& options);
 
-struct WhyOptions {
+// Options of `why` and `cancel`.
+struct OneJobOptions {
   RemoteOptions server;
   std::string job;
 };
-int explain_job(const WhyOptions& options);
+int explain_job(const OneJobOptions& options);
+int cancel_remote_job(const OneJobOptions& options);
 
-struct StopOptions {
+struct ArmsOptions {
   RemoteOptions server;
   std::vector<std::string> arms;  // default: all
 };
-// Stops each of the arms, even if an earlier request fails.
-int stop_remote_arms(const StopOptions& options);
+// Stop or resume each of the arms, even if an earlier request fails.
+int stop_remote_arms(const ArmsOptions& options);
+int resume_remote_arms(const ArmsOptions& options);
 
 struct EventsOptions {
   RemoteOptions server;

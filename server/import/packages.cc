@@ -26,7 +26,7 @@ std::map<std::string, NamedFiles> files_by_package(
     const std::map<std::string, std::string>& given) {
   std::map<std::string, NamedFiles> files;
   for (const std::string& mesh : mesh_names(urdf_text)) {
-    const auto path = package_of_mesh(mesh, given);
+    const auto path = package_of_mesh(mesh, urdf.parent_path(), given);
     if (!path || resolve_mesh(mesh, urdf.parent_path(), {})) continue;
     NamedFiles& named = files[path->package];
     named.inside.insert(path->inside.lexically_normal().string());

@@ -147,15 +147,16 @@ bool waits_on(const Schema& job, std::string_view kind) {
                              [&](const Schema& wait) { return text_at(wait, "kind") == kind; });
 }
 
+std::string expiry_of(const Schema& job, double now_s) {
+  const auto expires = number_at(job, "expires_s");
+  if (!expires) return "";
+  return " If nothing changes, it " +
+         std::string(text_at(job, "on_timeout") == "replan" ? "is replanned" : "expires") + " in " +
+         in_seconds(*expires - now_s) + ".";
+}
+
 std::string end_of_waiting(const Schema& job, double now_s) {
-  const std::string action = text_at(job, "on_timeout");
-  std::string text = " It moves for " + duration_text(job) + " once it starts.";
-  if (const auto expires = number_at(job, "expires_s")) {
-    text += " If nothing changes, it " +
-            std::string(action == "replan" ? "is replanned" : "expires") + " in " +
-            in_seconds(*expires - now_s) + ".";
-  }
-  return text;
+  return " It moves for " + duration_text(job) + " once it starts." + expiry_of(job, now_s);
 }
 
 // Says what a client can do about a wait.
@@ -171,8 +172,9 @@ std::string remedy_of(const Schema& job) {
            ".";
   }
   if (waits_on(job, "arm") || waits_on(job, "object") || waits_on(job, "job")) {
-    return " It starts by itself as soon as its way is certified free. To change that: clear the "
-           "way, plan another path with POST /api/v1/jobs/" +
+    return std::string(text_at(job, "state") == "paused" ? " It goes on" : " It starts") +
+           " by itself as soon as its way is certified free. To change that: clear the way, plan "
+           "another path with POST /api/v1/jobs/" +
            id + "/replan, or " + cancel + ".";
   }
   return list_at(job, "waits_on").empty() ? "" : " Nothing needs to be done; it starts by itself.";
@@ -203,7 +205,8 @@ std::string moving_text(const Schema& job, double now_s) {
       " has run" + since(job, "started_s", now_s) + " and is " + percent(job) + " done.";
   if (flag_at(job, "stopping")) return text + " It brakes on its path.";
   if (text_at(job, "state") == "paused") {
-    return " is paused on its path at " + percent(job) + "." + waits_text(job) + remedy_of(job);
+    return " is paused on its path at " + percent(job) + "." + waits_text(job) +
+           expiry_of(job, now_s) + remedy_of(job);
   }
   text += waits_text(job);
   return list_at(job, "waits_on").empty() ? text + " It ends in about " + in_seconds(left) + "."

@@ -78,7 +78,7 @@ FAULTS = {'server_store_test': [
     ('a pair that parted stays known', MONITOR, '  known_ = std::move(still_known);', '  if (FAULT) known_.merge(still_known);\n  else known_ = std::move(still_known);'),
 ], 'arm_test': [
     ('an arm does not brake for the end of its authority', PROGRESS, 'if (!above(fastest.rate, fastest.progress_s)) return fastest;', 'if (FAULT || !above(fastest.rate, fastest.progress_s)) return fastest;'),
-    ('authority may be taken back under a moving arm', PROGRESS, 'authority_ = std::max(authority, std::min(stop, authority_));', 'authority_ = FAULT ? authority : std::max(authority, std::min(stop, authority_));'),
+    ('authority may be taken back under a moving arm', PROGRESS, 'authority_ = std::max(authority, stop_from_here());', 'authority_ = FAULT ? authority : std::max(authority, stop_from_here());'),
     ('an arm brakes harder than its limits', RATES, 'const Interval a = within(at_first, first.rate, brake_, share);', 'const Interval a = within(at_first, first.rate, brake_, FAULT ? 2.0 * share : share);'),
     ('an arm speeds up harder than its limits', RATES, 'const double begin = std::clamp(a.highest,', 'const double begin = std::clamp(FAULT ? 2.0 * a.highest : a.highest,'),
     ('dropped feedback goes on', FAULTY, 'if (!drops) return feedback;', 'if (FAULT || !drops) return feedback;'),

@@ -222,6 +222,21 @@ TEST_F(Import, FindsMeshesAtAddressesOfAnotherMachine) {
   }
 }
 
+TEST_F(Import, FindsMeshesBesideTheFolderOfTheUrdf) {
+  const fs::path shuttle = test::kSource / "models/shuttle";
+  const fs::path package = folder_ / "shuttle_description";
+  fs::create_directories(package / "urdf");
+  fs::copy(shuttle / "meshes", package / "meshes", fs::copy_options::recursive);
+  const std::string text =
+      std::regex_replace(read_text_file(shuttle / "shuttle.urdf").value(),
+                         std::regex("package://shuttle_description/"), "../");
+  std::ofstream(package / "urdf/shuttle.urdf") << text;
+  const std::string files = "import --urdf " + (package / "urdf/shuttle.urdf").string() +
+                            " --srdf " + (shuttle / "shuttle.srdf").string();
+  const test::Outcome made = run(files);
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+}
+
 TEST_F(Import, AppliesThePrefixThatTheMessageNames) {
   std::string urdf = read_text_file(test::kSource / "models/ur5e.urdf").value();
   urdf = std::regex_replace(

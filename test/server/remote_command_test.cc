@@ -34,6 +34,9 @@ TEST_F(RemoteCommand, ShowsJobsAndStopsArms) {
   const auto all = ask(port, "stop");
   EXPECT_EQ(all.exit_code, 0);
   EXPECT_EQ(test::request(port, "GET", "/api/v1/queue").json()["stopped"], true);
+  EXPECT_EQ(ask(port, "resume right left").exit_code, 0);
+  EXPECT_EQ(test::request(port, "GET", "/api/v1/queue").json()["stopped"], false);
+  EXPECT_EQ(ask(port, "cancel reach").exit_code, 0);
   const auto events = ask(port, "events --count 1");
   EXPECT_NE(events.out.find("snapshot  1 jobs, 2 arms"), std::string::npos) << events.out;
   EXPECT_EQ(json::parse(ask(port, "events --count 1 --json").out)["type"], "snapshot");

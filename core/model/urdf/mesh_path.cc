@@ -219,11 +219,16 @@ tl::expected<fs::path, std::string> resolve_mesh(
   return resolve_inside(folder, path);
 }
 
-std::optional<PackagePath> package_of_mesh(const std::string& uri,
+std::optional<PackagePath> package_of_mesh(const std::string& uri, const fs::path& urdf_folder,
                                            const std::map<std::string, std::string>& packages) {
   if (uri.starts_with(kPackage)) return package_in_uri(uri);
-  const fs::path path = uri.starts_with(kFile) ? path_of_file_uri(uri) : uri;
-  return path.is_absolute() ? package_in_path(path, packages) : std::nullopt;
+  if (uri.starts_with(kFile)) {
+    const fs::path path = path_of_file_uri(uri);
+    return path.is_absolute() ? package_in_path(path, packages) : std::nullopt;
+  }
+  if (uri.find("://") != std::string::npos) return std::nullopt;
+  std::error_code error;
+  return package_in_path(fs::absolute(urdf_folder / uri, error), packages);
 }
 
 std::set<std::string> mesh_names(const std::string& urdf_text) {

@@ -33,11 +33,13 @@ struct PackagePath {
   // exist. Empty for package://.
   std::filesystem::path folder;
 };
-// Returns the package in package://name/rest. In an absolute path or file:// address, the package
-// is the last folder with a name in `packages`, else the folder above "meshes", else the mesh's own
-// folder. Returns nullopt for relative paths, other schemes, and addresses without a package.
+// Returns the package in package://name/rest. In another path, which is relative to the URDF's
+// folder unless it is absolute, and in a file:// address, the package is the last folder with a
+// name in `packages`, else the folder above "meshes", else the mesh's own folder. Returns nullopt
+// for other schemes, and addresses without a package.
 [[nodiscard]] std::optional<PackagePath> package_of_mesh(
-    const std::string& uri, const std::map<std::string, std::string>& packages);
+    const std::string& uri, const std::filesystem::path& urdf_folder,
+    const std::map<std::string, std::string>& packages);
 
 // Returns the name of each mesh in the URDF, also in visuals; empty if the text is not XML.
 [[nodiscard]] std::set<std::string> mesh_names(const std::string& urdf_text);
