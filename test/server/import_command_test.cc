@@ -227,9 +227,8 @@ TEST_F(Import, FindsMeshesBesideTheFolderOfTheUrdf) {
   const fs::path package = folder_ / "shuttle_description";
   fs::create_directories(package / "urdf");
   fs::copy(shuttle / "meshes", package / "meshes", fs::copy_options::recursive);
-  const std::string text =
-      std::regex_replace(read_text_file(shuttle / "shuttle.urdf").value(),
-                         std::regex("package://shuttle_description/"), "../");
+  const std::string text = std::regex_replace(read_text_file(shuttle / "shuttle.urdf").value(),
+                                              std::regex("package://shuttle_description/"), "../");
   std::ofstream(package / "urdf/shuttle.urdf") << text;
   const std::string files = "import --urdf " + (package / "urdf/shuttle.urdf").string() +
                             " --srdf " + (shuttle / "shuttle.srdf").string();
