@@ -82,6 +82,13 @@ bool moves_gripper_only(const JobRequest& request, const Cell& cell) {
 
 Result<TrajectoryPtr> gripper_motion(const JobRequest& request, const Cell& cell,
                                      const Configuration& rest) {
+  if (request.arm.empty()) {
+    return failure(Problem{ProblemKind::invalid,
+                           "no-arm",
+                           "/arm",
+                           "no arm is given: name the arm that has the gripper (\"arm\")",
+                           {}});
+  }
   auto id = find_arm(cell, request.arm);
   if (!id) {
     for (Problem& problem : id.error()) problem.pointer = "/arm";

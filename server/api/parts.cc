@@ -33,7 +33,8 @@ namespace {
 Response no_such(const char* what, const std::string& name, const std::vector<std::string>& known) {
   const std::vector<std::string_view> names(known.begin(), known.end());
   const auto nearest = nearest_name(name, names);
-  const std::string remedy = nearest ? "; did you mean " + std::string(*nearest) + "?" : "";
+  const std::string remedy = nearest ? "; did you mean " + std::string(*nearest) + "?"
+                                     : std::string("; GET /") + what + "s lists them";
   return problem_response(
       {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",
                std::string("no such ") + what + " \"" + name + "\"" + remedy, name}});

@@ -22,7 +22,7 @@ AcceptedRequests::Names names_of(const SentRequest& sent) {
 
 Problem other_body(const std::string& key) {
   return {ProblemKind::conflict, "idempotency-key-in-use", "Idempotency-Key",
-          "this Idempotency-Key was already used with a different body",
+          "this Idempotency-Key was already used with a different body: use a new key",
           key.substr(key.find(kNameEnds) + 1)};  // the whole key if no token is required
 }
 

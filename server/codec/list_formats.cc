@@ -9,7 +9,7 @@ bool is_readable(const JsonNode& array, const ListSize& size) {
   if (!size.most || found <= *size.most) return true;
   array.fault(ProblemKind::too_large, "too-many-" + size.what,
               std::to_string(found) + " " + size.noun + ", at most " + std::to_string(*size.most) +
-                  " are allowed");
+                  " are allowed: send fewer, or in parts");
   return false;
 }
 
