@@ -65,7 +65,8 @@ TEST_F(RemoteCommand, ExplainsWhatIsWrong) {
   EXPECT_EQ(asks.exit_code, 2);
   EXPECT_NE(asks.err.find("ARMLOOM_TOKEN"), std::string::npos) << asks.err;
   setenv("ARMLOOM_TOKEN", token.substr(0, token.find('\n')).c_str(), 1);
-  EXPECT_EQ(ask(server.port(), "why nothing").err, "armloom: no such job \"nothing\"; GET /jobs lists them\n");
+  EXPECT_EQ(ask(server.port(), "why nothing").err,
+            "armloom: no such job \"nothing\"; GET /jobs lists them\n");
 }
 
 }  // namespace
