@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -166,7 +165,8 @@ class Search {
     std::vector<HomeObstacle> sorted;
     for (const auto& [pair, obstacle] : counts) sorted.push_back(obstacle);
     std::ranges::stable_sort(sorted, std::greater{}, &HomeObstacle::places);
-    for (const HomeObstacle& obstacle : sorted | std::views::take(most)) {
+    if (sorted.size() > most) sorted.resize(most);
+    for (const HomeObstacle& obstacle : sorted) {
       all.push_back(obstacle);
       if (obstacle.places == places_[obstacle.arm.index()].size()) break;  // a sufficient reason
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <ranges>
 #include <vector>
 
 namespace armloom {
@@ -69,8 +68,11 @@ std::optional<PrefixMismatch> find_prefix_mismatch(const std::set<std::string>& 
   Candidates lacking;
   Candidates extra;
   const auto sample = [&](const std::set<std::string>& names, const auto& of_urdf) {
-    for (const std::string& name : names | std::views::take(kSamples))
+    std::size_t taken = 0;
+    for (const std::string& name : names) {
+      if (++taken > kSamples) break;
       add_candidates(name, of_urdf, lacking, extra);
+    }
   };
   sample(links, tree.by_link);
   sample(joints, tree.by_joint);
