@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -165,8 +166,7 @@ class Search {
     std::vector<HomeObstacle> sorted;
     for (const auto& [pair, obstacle] : counts) sorted.push_back(obstacle);
     std::ranges::stable_sort(sorted, std::greater{}, &HomeObstacle::places);
-    if (sorted.size() > most) sorted.resize(most);
-    for (const HomeObstacle& obstacle : sorted) {
+    for (const HomeObstacle& obstacle : sorted | std::views::take(most)) {
       all.push_back(obstacle);
       if (obstacle.places == places_[obstacle.arm.index()].size()) break;  // a sufficient reason
     }
