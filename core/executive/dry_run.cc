@@ -66,7 +66,7 @@ class Plan {
       if (goals && !fails) plan(*goals, timed.job.speed, job);
     } else {
       const auto motion = timed.job.motions().front();  // as if that were chosen
-      auto trajectory = validate_from(motion.motion);
+      auto trajectory = validate_from(motion.motion, cell_, rest_);
       Problems wrong = trajectory ? Problems{} : std::move(trajectory.error());
       if (trajectory) *trajectory = with_whole_turns(cell_, std::move(*trajectory), rest_);
       if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, wrong);
@@ -85,13 +85,6 @@ class Plan {
   [[nodiscard]] const std::string& why(const std::string& key) const { return why_.at(key); }
 
  private:
-  Result<TrajectoryPtr> validate_from(const TrajectoryRequest& asked) const {
-    if (!has_implicit_start(asked, cell_)) return validate(asked, cell_);
-    auto complete = with_implicit_start(asked, cell_, rest_);
-    if (!complete) return failure(std::move(complete.error()));
-    return validate(*complete, cell_);
-  }
-
   // Whether one of these fails.
   bool find_what_it_follows(const JobRequest& request, Planned& job, Problems& problems) {
     if (by_key_.contains(job.key) || ended_.contains(job.key)) {

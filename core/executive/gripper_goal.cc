@@ -22,15 +22,6 @@ std::string names_of(const Cell& cell, const std::vector<JointId>& joints) {
   return names.empty() ? "none" : names;
 }
 
-std::optional<JointId> gripper_joint(const Cell& cell, const Arm& arm, const std::string& name) {
-  const std::string& prefix = cell.robots[arm.robot.index()].prefix;
-  for (const JointId joint : arm.gripper_joints) {
-    const std::string& known = cell.joint(joint).name;
-    if (known == name || known == prefix + name) return joint;
-  }
-  return std::nullopt;
-}
-
 std::string why_not_moved(const Cell& cell, const Arm& arm, const std::string& name) {
   const Robot& robot = cell.robots[arm.robot.index()];
   for (const std::string& known : {name, robot.prefix + name}) {
@@ -49,8 +40,8 @@ Result<Positions> positions_of(const JobRequest& request, const Cell& cell, cons
   Problems problems;
   for (const auto& [name, position] : request.move_to->gripper) {
     const std::string place = "/move_to/joints/" + name;
-    const auto joint = gripper_joint(cell, arm, name);
-    if (!joint) {
+    const auto joint = find_joint(name, arm.name, cell);
+    if (!joint || std::ranges::count(arm.gripper_joints, *joint) == 0) {
       problems.push_back(
           {ProblemKind::invalid, "unknown-joint", place, why_not_moved(cell, arm, name), name});
       continue;

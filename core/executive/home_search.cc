@@ -37,7 +37,7 @@ class Search {
   }
 
  private:
-  // What is too close with an arm at its candidates, and at how many of them.
+  // By pair of bodies that are too close: at how many candidates of an arm this is so.
   using Counts = std::map<PairId, HomeObstacle>;
 
   bool place(std::size_t arm) {

@@ -202,9 +202,7 @@ Result<TrajectoryPtr> JobIntake::validate_from(const TrajectoryRequest& asked,
   for (const ArmId arm : arms_of(asked, *cell_)) {
     if (auto problem = unknown_start(arm, ahead)) return failure(*std::move(problem));
   }
-  auto complete = with_implicit_start(asked, *cell_, ahead.rest);
-  if (!complete) return failure(std::move(complete.error()));
-  return validate(*complete, *cell_);
+  return armloom::validate_from(asked, *cell_, ahead.rest);
 }
 
 std::vector<TrajectoryPtr> JobIntake::read_gripper_goal(const JobRequest& request,

@@ -194,7 +194,7 @@ class RealTimeLoop::Impl final : public JudgementService {
       base.reset();
       post([this, prepared](Executive& executive) {
         apply_first(executive, *prepared);
-        // What the edit replaced is freed by the worker, not here.
+        // The worker frees the replaced scene, so that the strand does not wait for it.
         scene_maker_.post([prepared, count = executive.scene().objects().size()] {
           const bool many = prepared->made && prepared->made->scene &&
                             prepared->made->scene->objects().size() >= count + kManyRemoved;

@@ -43,6 +43,11 @@ TrajectoryPtr with_whole_turns(const Cell& cell, TrajectoryPtr motion, const Con
 
 namespace {
 
+bool is_gripper_joint(const Cell& cell, JointId id) {
+  const std::optional<ArmId> arm = cell.joint(id).arm;
+  return arm && std::ranges::count(cell.arm(*arm).gripper_joints, id) > 0;
+}
+
 // Adds a problem if joint `j` of the trajectory begins elsewhere than it `stands`.
 void compare_start(const Cell& cell, JointId id, std::size_t j, double begins, double stands,
                    Problems& problems) {
@@ -59,9 +64,7 @@ void compare_start(const Cell& cell, JointId id, std::size_t j, double begins, d
   if (joint.kind != JointKind::prismatic) {
     detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);
   }
-  const bool is_gripper =
-      joint.arm && std::ranges::count(cell.arm(*joint.arm).gripper_joints, id) > 0;
-  detail += is_gripper
+  detail += is_gripper_joint(cell, id)
                 ? "; begin there, or move the gripper there first (\"move_to\")"
                 : "; begin there, or give the first waypoint a time above 0 in which the arm "
                   "may get to it, or let the server move the arm to the start "
@@ -76,9 +79,7 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
                           Problems& problems, Compared compared) {
   for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
     const JointId id = trajectory.joints()[j];
-    const std::optional<ArmId> arm = cell.joint(id).arm;
-    const bool is_gripper = arm && std::ranges::count(cell.arm(*arm).gripper_joints, id) > 0;
-    if (compared == Compared::gripper_joints && !is_gripper) continue;
+    if (compared == Compared::gripper_joints && !is_gripper_joint(cell, id)) continue;
     compare_start(cell, id, j, trajectory.start()[static_cast<Eigen::Index>(j)],
                   rest[static_cast<Eigen::Index>(id.index())], problems);
   }

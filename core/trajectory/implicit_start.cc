@@ -136,4 +136,12 @@ Result<TrajectoryRequest> with_implicit_start(TrajectoryRequest request, const C
   return request;
 }
 
+Result<TrajectoryPtr> validate_from(const TrajectoryRequest& request, const Cell& cell,
+                                    const Configuration& rest) {
+  if (!has_implicit_start(request, cell)) return validate(request, cell);
+  const auto complete = with_implicit_start(request, cell, rest);
+  if (!complete) return failure(complete.error());
+  return validate(*complete, cell);
+}
+
 }  // namespace armloom

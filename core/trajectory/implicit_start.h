@@ -32,4 +32,9 @@ inline constexpr std::size_t kImplicitStartWaypointsMax = 1000;
                                                             const Cell& cell,
                                                             const Configuration& rest);
 
+// Validates a request that may have an implicit start, from the position `rest` of all joints.
+// Thread-safe.
+[[nodiscard]] Result<TrajectoryPtr> validate_from(const TrajectoryRequest& request,
+                                                  const Cell& cell, const Configuration& rest);
+
 }  // namespace armloom

@@ -52,23 +52,30 @@ void respond_when_stored(const ApiParts& parts, std::vector<StoredObject> object
 // Adds the object of the body, or puts it. `name`: name of the object in the path, if any.
 template <class Edit>
 void set_object(Call& call, const std::optional<std::string>& name) {
-  const auto set = [&parts = call.parts, respond = call.respond,
-                    text = call.request.body](CollisionObject object) {
+  // The object, and its text as JSON.
+  using Read = std::pair<CollisionObject, std::string>;
+  const auto set = [&parts = call.parts, respond = call.respond](const Read& read) {
+    const auto& [object, text] = read;
     edit(parts, Edit{object}, nullptr,
-         [&parts, respond, text, object](const Result<SceneEdited>& edited) {
+         [&parts, respond, text = text, object = object](const Result<SceneEdited>& edited) {
            if (!edited) return respond(problem_response(edited.error()));
            Response told = answer(edited->created ? 201 : 200, scene_change_format(),
                                   SceneChange{edited->version, object});
            if (edited->created) {
              told = located(std::move(told), "/scene/objects/" + url_segment(object.name));
            }
-           respond_when_stored(parts, {{object.name, *text, is_of_cell(parts, object.name)}},
+           respond_when_stored(parts, {{object.name, text, is_of_cell(parts, object.name)}},
                                respond, std::move(told));
          });
   };
   read_body(
       call.parts, call.request, call.respond,
-      [name](std::string_view text) { return read_object_text(text, name); }, set);
+      [name](std::string_view text) -> Result<Read> {
+        auto object = read_object_text(text, name);
+        if (!object) return failure(std::move(object.error()));
+        return Read(*std::move(object), text);
+      },
+      set);
 }
 
 void post_object(Call call) { set_object<ObjectAdded>(call, std::nullopt); }

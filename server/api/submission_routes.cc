@@ -52,7 +52,7 @@ void post_job(Call call) {
   const ApiParts& parts = call.parts;
   const auto key = idempotency_key(parts, call.request);
   if (!key) return call.respond(problem_response(key.error()));
-  const auto submit = [&parts, key = *key, respond = call.respond, body = call.request.body,
+  const auto submit = [&parts, key = *key, respond = call.respond,
                        client = parts.guard.client(call.request)](Submission<JobRequest> read) {
     if (is_limited(parts, client, 1, respond)) return;
     const std::string digest = sha256_hex(read.canonical);
@@ -60,7 +60,7 @@ void post_job(Call call) {
         std::make_shared<const SentRequest>(SentRequest{key, digest, {{read.request.key, digest}}});
     const auto job = std::make_shared<JobRequest>(std::move(read.request));
     recall(parts, sent, respond,
-           [&parts, sent, job, body](const KnownJobs& known, const Respond& ending) {
+           [&parts, sent, job, body = job->body](const KnownJobs& known, const Respond& ending) {
              if (!known.front().empty()) return answer_known_job(parts, sent, known, ending);
              submit_job(parts, sent, std::move(*job), body, ending);
            });

@@ -25,14 +25,11 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
     }
     std::vector<TrajectoryPtr> motions;
     for (const auto& [where, asked] : file.jobs[i].job.motions()) {
-      // Only the run knows where a motion with an implicit start begins, and checks it again.
-      auto complete = has_implicit_start(asked, cell)
-                          ? with_implicit_start(asked, cell, cell.home())
-                          : Result<TrajectoryRequest>(asked);
-      if (!complete) continue;
-      auto motion = validate(*complete, cell);
+      auto motion = validate_from(asked, cell, cell.home());
       if (motion) motions.push_back(std::move(*motion));
-      for (Problem problem : motion ? Problems{} : motion.error()) {
+      // Only the run knows where a motion with an implicit start begins, and validates it.
+      if (motion || has_implicit_start(asked, cell)) continue;
+      for (Problem problem : motion.error()) {
         problem.pointer = place + where + problem.pointer;
         faults.push_back(std::move(problem));
       }

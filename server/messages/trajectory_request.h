@@ -15,7 +15,7 @@ namespace armloom {
 // Describes a goal of control_msgs/FollowJointTrajectory.
 [[nodiscard]] FormatPtr<TrajectoryRequest> action_goal_format();
 // The members of a trajectory, and of MoveIt's nesting, for an object that has other members too.
-// The first of them do not set TrajectoryRequest::place.
+// bare_trajectory_parts() does not set TrajectoryRequest::place.
 [[nodiscard]] formats::PartPtr<TrajectoryRequest> bare_trajectory_parts();
 [[nodiscard]] formats::PartPtr<TrajectoryRequest> bare_robot_trajectory_parts();
 

@@ -1,6 +1,6 @@
 // Forms of an answer: newline, ?pretty, text/plain, gzip; and what a reverse proxy needs.
-#include <zlib.h>
 
+#include "test/server/unpacked.h"
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -9,20 +9,6 @@ namespace {
 using nlohmann::json;
 using test::kAside;
 using test::kHome;
-
-std::string unpacked(const std::string& bytes) {
-  std::string out(1U << 20U, '\0');
-  z_stream stream{};
-  EXPECT_EQ(inflateInit2(&stream, 15 + 16), Z_OK);
-  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  inflateEnd(&stream);
-  return out;
-}
 
 class AnswerForm : public test::VerbsFixture {
  protected:
@@ -92,14 +78,14 @@ TEST_F(AnswerForm, IsCompressedAboveOneKilobyte) {
   const auto packed = ask("/jobs?state=queued&arm=right", gzip), jobs = ask("/jobs", gzip);
   EXPECT_EQ(packed.headers.count("content-encoding"), 0U) << "small";
   EXPECT_EQ(jobs.headers.at("content-encoding"), "gzip");
-  EXPECT_EQ(json::parse(unpacked(jobs.body))["jobs"].size(), 5U);
+  EXPECT_EQ(json::parse(test::unpacked(jobs.body))["jobs"].size(), 5U);
   EXPECT_EQ(ask("/jobs", "").headers.count("content-encoding"), 0U);
 
   next_job(listener, id + "4", [](const json& told) { return !told["waits_on"].empty(); });
   const std::string one = "/jobs/" + id + "4", big = one + "?pretty";
   const auto shown = ask(big, gzip);
   const std::string tag = shown.headers.at("etag");
-  ASSERT_TRUE(tag.ends_with("-pretty-gzip\"")) << tag << unpacked(shown.body);
+  ASSERT_TRUE(tag.ends_with("-pretty-gzip\"")) << tag << test::unpacked(shown.body);
   test::Wire wire(port());
   wire.send("GET /api/v1" + big + " HTTP/1.1\r\nHost: localhost\r\n" + gzip +
             "If-None-Match: " + tag + "\r\n\r\n");

@@ -34,6 +34,20 @@ TEST_F(Durable, WaitingJobsAreRestoredUnderAStop) {
   EXPECT_LE(job("a")["ended_s"].get<double>(), job("b")["started_s"].get<double>());
 }
 
+TEST_F(Durable, RequestsInYamlSurviveARestart) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  const char* const yaml = "application/yaml";
+  ASSERT_EQ(post("/api/v1/jobs", "id: pasted\narm: left\nmove_to:\n  named: home\n", yaml).status,
+            202);
+  const auto object = post("/api/v1/scene/objects",
+                           "name: pasted\nsphere:\n- 0.05\nxyz:\n- 0\n- 0.9\n- 0.2\n", yaml);
+  ASSERT_EQ(object.status, 201) << object.body;
+  restart();
+  EXPECT_EQ(job("pasted")["state"], "queued");
+  EXPECT_NE(get("/api/v1/scene").body.find("pasted"), std::string::npos);
+}
+
 TEST_F(Durable, ChangesOfJobsSurviveARestart) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <fstream>
 
 #include "server/http/open_file.h"
 #include "server/http/static_files.h"
 #include "test/server/running_server.h"
+#include "test/server/unpacked.h"
 
 namespace armloom {
 namespace {
@@ -27,20 +27,6 @@ std::string header(const Response& response, const std::string& name) {
     if (found == name) return value;
   }
   return "";
-}
-
-std::string unpacked(const std::string& packed) {
-  z_stream stream{};
-  inflateInit2(&stream, 15 + 16);
-  std::string out(1 << 20, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  inflateEnd(&stream);
-  return out;
 }
 
 class Files : public test::RunningServer {
@@ -95,7 +81,7 @@ TEST_F(Files, AreCompressedOnRequest) {
   EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
   EXPECT_EQ(packed.headers.at("vary"), "Accept-Encoding");
   EXPECT_LT(packed.body.size(), script_.size() / 3);
-  EXPECT_EQ(unpacked(packed.body), script_);
+  EXPECT_EQ(test::unpacked(packed.body), script_);
   for (const char* fields : {"", "Accept-Encoding: gzip;q=0\r\n", "Accept-Encoding: *;q=0.0\r\n",
                              "Accept-Encoding: br\r\nAccept-Encoding: deflate\r\n"}) {
     const auto plain = ask("GET", "/assets/app.js", fields);
