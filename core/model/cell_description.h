@@ -52,13 +52,27 @@ inline constexpr NumberRange kSettingTime_s{0.0, 1e6};
 inline constexpr NumberRange kSettingPositiveTime_s{0.0, 1e6, true};
 inline constexpr NumberRange kZeroToOne{0.0, 1.0};
 
+// A robot's controller: how to reach it, and what it promises. Certificates, authority and time
+// limits rest on the promises; the monitor observes that they are kept.
 struct ControllerDescription {
   inline static constexpr NumberRange lag_range = kSettingTime_s;
   inline static constexpr NumberRange noise_range = kZeroToOne;
+  inline static constexpr NumberRange reaction_range{0.0, 1.0};
+  inline static constexpr NumberRange feedback_period_range{0.001, 1.0};
+  inline static constexpr NumberRange feedback_timeout_range{0.002, 10.0};
 
   std::string type = "sim";
+  // Simulated arms only.
   Duration lag = std::chrono::milliseconds(20);  // first-order delay along the path
   double noise_rad = 0.0;                        // standard deviation of measured positions
+  // Type "remote" only: "unix:PATH" or "tcp:HOST:PORT".
+  std::string endpoint = {};
+
+  // Promises.
+  Duration reaction = std::chrono::milliseconds(20);  // from a command to its effect
+  Duration feedback_period = std::chrono::milliseconds(1);
+  Duration feedback_timeout = std::chrono::milliseconds(100);  // older feedback: the arm is lost
+  std::optional<double> tracking_error_rad = {};  // nullopt: CheckingSettings::tracking_error_rad
 };
 
 struct RobotDescription {

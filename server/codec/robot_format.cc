@@ -136,12 +136,28 @@ FormatPtr<ArmDescription> arm_description_format() {
 FormatPtr<ControllerDescription> controller_format() {
   using Controller = ControllerDescription;
   return object<Controller>({
-      field("type", &Controller::type, one_of({"sim"}),
-            "Kind of controller; only simulated arms are available."),
+      field("type", &Controller::type, one_of({"sim", "remote"}),
+            "Kind of controller. sim: a simulated arm in the server. remote: a controller in a "
+            "process of its own, for example `armloom arm`."),
       field("lag_s", &Controller::lag, seconds(Controller::lag_range),
-            "Delay of the measured position behind the commanded one, along the path."),
+            "Simulated arms: delay of the measured position behind the commanded one, along the "
+            "path."),
       field("noise_rad", &Controller::noise_rad, number(Controller::noise_range),
-            "Standard deviation of the noise of measured positions."),
+            "Simulated arms: standard deviation of the noise of measured positions."),
+      field("endpoint", &Controller::endpoint, text(),
+            "Address of a remote controller: unix:PATH or tcp:HOST:PORT."),
+      field("reaction_s", &Controller::reaction, seconds(Controller::reaction_range),
+            "Promise: time from a command to its effect on the arm."),
+      field("feedback_period_s", &Controller::feedback_period,
+            seconds(Controller::feedback_period_range),
+            "Promise: time between two reports of the controller."),
+      field("feedback_timeout_s", &Controller::feedback_timeout,
+            seconds(Controller::feedback_timeout_range),
+            "Age of the last report after which the arm counts as lost and is stopped."),
+      field("tracking_error_rad", &Controller::tracking_error_rad,
+            number(CheckingSettings::tracking_error_range),
+            "Promise: largest deviation of a joint from its path. Default: the cell's "
+            "checking.tracking_error_rad."),
   });
 }
 

@@ -168,6 +168,15 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
     const std::string pointer = "/robots/" + std::to_string(r) + "/controller";
     time_within(controller.lag_range, controller.lag, pointer + "/lag_s");
     within(controller.noise_range, controller.noise_rad, pointer + "/noise_rad");
+    time_within(controller.reaction_range, controller.reaction, pointer + "/reaction_s");
+    time_within(controller.feedback_period_range, controller.feedback_period,
+                pointer + "/feedback_period_s");
+    time_within(controller.feedback_timeout_range, controller.feedback_timeout,
+                pointer + "/feedback_timeout_s");
+    if (controller.tracking_error_rad) {
+      within(CheckingSettings::tracking_error_range, *controller.tracking_error_rad,
+             pointer + "/tracking_error_rad");
+    }
   }
 }
 
