@@ -24,6 +24,7 @@ class CommandedProgress {
 
   [[nodiscard]] Duration progress() const { return progress_; }
   [[nodiscard]] double rate() const { return rate_; }
+  [[nodiscard]] Duration authority() const { return authority_; }
   // Returns the largest progress that the arm may reach.
   [[nodiscard]] Duration end() const { return std::min(authority_, trajectory_->duration()); }
 

@@ -5,11 +5,7 @@
 
 namespace armloom {
 
-using Phase = ArmFeedback::Phase;
-
-FaultyArm::FaultyArm(std::unique_ptr<ArmController> inner) : inner_(std::move(inner)) {
-  feedback_ = inner_->tick(now_);
-}
+FaultyArm::FaultyArm(std::unique_ptr<ArmController> inner) : inner_(std::move(inner)) {}
 
 void FaultyArm::inject(std::uint64_t id, ArmFault fault) { faults_.insert_or_assign(id, fault); }
 
@@ -24,75 +20,76 @@ const ArmFault* FaultyArm::active(ArmFault::Kind kind) const {
   return nullptr;
 }
 
-void FaultyArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
-                      Duration authority) {
-  if (const ArmFault* late = active(ArmFault::Kind::late_start)) {
-    start_at += from_seconds(late->value);
-  }
-  granted_ = allowed_ = authority;
-  creep_s_.reset();
-  inner_->start(std::move(trajectory), start_at, from_progress, authority);
-  under_way_ = true;
-  told_.phase = Phase::waiting;
-  told_.commanded_progress = told_.measured_progress = from_progress;
+// ---- Commands ----
+
+void FaultyArm::send(const ArmCommand& command) {
+  if (command.number != acknowledged_ + 1) return;
+  acknowledged_ = command.number;
+  std::visit([this](const auto& what) { carry_out(what); }, command.what);
 }
 
-void FaultyArm::grant(Duration authority) {
-  granted_ = authority;
-  // Authority that a fault withholds stays withheld; the next tick decides.
+void FaultyArm::carry_out(const ArmCommand::Follow& follow) {
+  ArmCommand::Follow passed = follow;
+  if (const ArmFault* late = active(ArmFault::Kind::late_start)) {
+    passed.start_at += from_seconds(late->value);
+  }
+  granted_ = allowed_ = follow.authority;
+  creep_s_.reset();
+  under_way_ = true;
+  pass_on(passed);
+  follow_ = {acknowledged_, inner_number_};
+}
+
+void FaultyArm::carry_out(const ArmCommand::Extend& extend) {
+  granted_ = extend.authority;
+  // Authority that a fault withholds stays withheld; the next cycle decides.
   if (allowed_ > granted_ || (!active(ArmFault::Kind::stall) && !active(ArmFault::Kind::slow))) {
     allowed_ = granted_;
-    inner_->grant(allowed_);
+    pass_on(ArmCommand::Extend{allowed_});
   }
 }
 
-void FaultyArm::brake() { inner_->brake(); }
-
-void FaultyArm::release() {
-  inner_->release();
+void FaultyArm::carry_out(const ArmCommand::Release& release) {
+  pass_on(release);
   under_way_ = false;
   giving_up_ = false;
-  phase_ = told_.phase = Phase::idle;
 }
 
-const ArmFeedback& FaultyArm::tick(TimePoint now) {
-  const ArmFeedback& feedback = advance(now);
-  const bool drops = active(ArmFault::Kind::drop_feedback) != nullptr;
-  if (drops && !dropping_) told_ = feedback;
-  dropping_ = drops;
-  if (!drops) return feedback;
-  told_.settled = false;
-  return told_;
+// ---- Each control cycle ----
+
+const ArmFeedback* FaultyArm::poll(TimePoint now) {
+  if (now != now_) act(now - std::exchange(now_, now));
+  const ArmFeedback* inner = inner_->poll(now);
+  if (inner == nullptr) return nullptr;
+  report(*inner);
+  return active(ArmFault::Kind::drop_feedback) == nullptr ? &feedback_ : nullptr;
 }
 
-const ArmFeedback& FaultyArm::advance(TimePoint now) {
-  const Duration period = now - std::exchange(now_, now);
+void FaultyArm::act(Duration period) {
   const bool sound = faults_.empty() && !giving_up_ && allowed_ == granted_;
-  if (sound) {
-    const ArmFeedback& feedback = inner_->tick(now);
-    phase_ = feedback.phase;
-    feedback_.commanded_progress = feedback.commanded_progress;
-    return feedback;
-  }
-  if (under_way_) {
-    const bool moves = phase_ == Phase::moving || phase_ == Phase::braking;
-    if (moves && active(ArmFault::Kind::fault)) give_up();
-    withhold(period);
-  }
-  feedback_ = inner_->tick(now);
+  if (sound || !under_way_) return;
+  const bool moves = feedback_.phase == Phase::moving || feedback_.phase == Phase::braking;
+  if (moves && active(ArmFault::Kind::fault)) give_up();
+  withhold(period);
+}
+
+void FaultyArm::report(const ArmFeedback& inner) {
+  feedback_ = inner;
+  feedback_.acknowledged = acknowledged_;
+  feedback_.authority = under_way_ ? std::max(granted_, inner.authority) : inner.authority;
+  feedback_.rejected = inner.rejected == follow_.second ? follow_.first : 0;
   // An arm whose path is commanded to the end cannot brake any more: it gives up at the goal.
-  if (giving_up_ && (feedback_.phase == Phase::stopped || feedback_.phase == Phase::finished)) {
+  if (giving_up_ && (inner.phase == Phase::stopped || inner.phase == Phase::finished)) {
     feedback_.phase = Phase::fault;
     feedback_.detail = "the simulated controller gave up";
   }
-  phase_ = feedback_.phase;
   if (under_way_ && fault_changes()) feedback_.settled = false;
-  return feedback_;
 }
 
 // Returns true if the faults' effect on the present motion changes with time.
 bool FaultyArm::fault_changes() const {
-  const bool over = phase_ == Phase::stopped || phase_ == Phase::finished || phase_ == Phase::fault;
+  const Phase phase = feedback_.phase;
+  const bool over = phase == Phase::stopped || phase == Phase::finished || phase == Phase::fault;
   if (over) return false;
   return (allowed_ != granted_ && active(ArmFault::Kind::slow) != nullptr) ||
          std::ranges::any_of(faults_, [this](const auto& entry) {
@@ -103,7 +100,7 @@ bool FaultyArm::fault_changes() const {
 
 void FaultyArm::give_up() {
   giving_up_ = true;
-  inner_->brake();
+  pass_on(ArmCommand::Brake{});
   std::erase_if(faults_, [this](const auto& entry) {
     return entry.second.kind == ArmFault::Kind::fault && entry.second.from <= now_;
   });
@@ -122,7 +119,7 @@ void FaultyArm::withhold(Duration period) {
   }
   if (allowed == allowed_) return;
   allowed_ = allowed;
-  inner_->grant(allowed_);
+  pass_on(ArmCommand::Extend{allowed_});
 }
 
 }  // namespace armloom

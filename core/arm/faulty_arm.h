@@ -6,65 +6,61 @@
 #include <optional>
 
 #include "core/arm/arm_controller.h"
+#include "core/arm/arm_fault.h"
 
 namespace armloom {
 
-struct ArmFault {
-  enum class Kind {
-    stall,       // stops on its path, then continues
-    slow,        // follows its path at `value` (0..1) of its speed
-    late_start,  // starts each motion `value` seconds late
-    // Commands are still acknowledged, but the feedback is frozen at its last value.
-    drop_feedback,
-    // The controller gives up once: brakes and reports a fault, in the present or next motion.
-    fault,
-  };
-  Kind kind;
-  TimePoint from;
-  std::optional<TimePoint> until;  // unlimited if nullopt
-  double value = 0.0;
-};
-
-// A controller with faults, for tests and simulation. Acts on the inner controller only as an
-// executive could (withholds authority, starts late, brakes), so limits and path are always kept.
-// Deterministic.
-class FaultyArm final : public ArmController {
+// A controller with faults, for tests and simulation. It stands between the caller and the inner
+// controller, on the controller's side of the contract. Deterministic.
+class FaultyArm final : public ArmController, public FaultTarget {
  public:
   explicit FaultyArm(std::unique_ptr<ArmController> inner);
 
-  // Adds a fault under an unused `id`.
-  void inject(std::uint64_t id, ArmFault fault);
-  // Returns false if there is no such fault.
-  bool remove(std::uint64_t id);
+  void inject(std::uint64_t id, ArmFault fault) override;
+  bool remove(std::uint64_t id) override;
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return inner_->joints(); }
-  void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
-             Duration authority) override;
-  void grant(Duration authority) override;
-  void brake() override;
-  void release() override;
-  const ArmFeedback& tick(TimePoint now) override;
+  void send(const ArmCommand& command) override;
+  [[nodiscard]] const ArmFeedback* poll(TimePoint now) override;
+  [[nodiscard]] const Eigen::VectorXd* true_positions() const override {
+    return inner_->true_positions();
+  }
 
  private:
+  using Phase = ArmFeedback::Phase;
+
   [[nodiscard]] const ArmFault* active(ArmFault::Kind kind) const;
-  const ArmFeedback& advance(TimePoint now);
+  void carry_out(const ArmCommand::Follow& follow);
+  void carry_out(const ArmCommand::Extend& extend);
+  void carry_out(const ArmCommand::Release& release);
+  template <class Command>
+  void carry_out(const Command& command) {
+    pass_on(command);
+  }
+  template <class Command>
+  void pass_on(const Command& command) {
+    inner_->send({++inner_number_, command});
+  }
+  void act(Duration period);
   void withhold(Duration period);
   void give_up();
+  void report(const ArmFeedback& inner);
   [[nodiscard]] bool fault_changes() const;
 
   std::unique_ptr<ArmController> inner_;
   std::map<std::uint64_t, ArmFault> faults_;
   TimePoint now_{};
+  CommandNumber acknowledged_ = 0;  // of the caller's commands
+  CommandNumber inner_number_ = 0;  // of the last command to the inner controller
+  // The caller's and the inner controller's number of the last follow.
+  std::pair<CommandNumber, CommandNumber> follow_{};
   bool under_way_ = false;
   Duration granted_{};  // authority granted by the caller
   Duration allowed_{};  // authority passed on to the inner controller
   // During a `slow` fault: authority (s) that it grants, growing with time.
   std::optional<double> creep_s_;
   bool giving_up_ = false;
-  ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // last reported by advance()
   ArmFeedback feedback_;
-  bool dropping_ = false;
-  ArmFeedback told_;  // feedback reported during a `drop_feedback` fault
 };
 
 }  // namespace armloom

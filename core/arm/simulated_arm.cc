@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace armloom {
@@ -39,55 +40,94 @@ bool SimulatedArm::under_way() const {
          feedback_.phase == Phase::braking;
 }
 
-void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
-                         Duration authority) {
-  if (under_way()) throw std::logic_error("SimulatedArm::start: a motion is under way");
-  if (!trajectory) throw std::logic_error("SimulatedArm::start: no trajectory");
-  if (from_progress < Duration{} || from_progress > trajectory->duration()) {
-    throw std::logic_error("SimulatedArm::start: progress outside the trajectory");
+// ---- Commands ----
+
+void SimulatedArm::send(const ArmCommand& command) {
+  if (command.number != feedback_.acknowledged + 1) return;
+  feedback_.acknowledged = command.number;
+  std::string why = std::visit([this](const auto& what) { return carry_out(what); }, command.what);
+  if (why.empty()) return;
+  feedback_.rejected = command.number;
+  feedback_.detail = std::move(why);
+  if (std::holds_alternative<ArmCommand::Follow>(command.what) && !under_way()) {
+    feedback_.phase = Phase::fault;
+  }
+}
+
+// Returns why the arm cannot follow the trajectory, and otherwise sets path_ and offset_.
+std::string SimulatedArm::mapped(const ArmCommand::Follow& follow) {
+  if (!follow.trajectory) return "there is no trajectory";
+  if (follow.from < Duration{} || follow.from > follow.trajectory->duration()) {
+    return "progress " + std::to_string(to_seconds(follow.from)) + " s is outside the trajectory";
   }
   std::vector<Eigen::Index> rows(joints_.size(), -1);
-  bool concerned = false;
+  const std::vector<JointId>& all = follow.trajectory->joints();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const std::vector<JointId>& all = trajectory->joints();
     const auto found = std::find(all.begin(), all.end(), joints_[j]);
-    if (found == all.end()) continue;
-    rows[j] = found - all.begin();
-    concerned = true;
+    if (found != all.end()) rows[j] = found - all.begin();
   }
-  if (!concerned)
-    throw std::logic_error("SimulatedArm::start: the trajectory moves no joint of the arm");
-
-  trajectory->sample_positions(from_progress, path_.at);
-  path_.target = path_.at;  // allocates both before the first tick
+  if (std::ranges::all_of(rows, [](Eigen::Index row) { return row < 0; })) {
+    return "the trajectory moves no joint of the arm";
+  }
+  Eigen::VectorXd at;
+  follow.trajectory->sample_positions(follow.from, at);
   Eigen::VectorXd offset = Eigen::VectorXd::Zero(position_.size());
   for (std::size_t j = 0; j < rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    if (rows[j] >= 0) offset[i] = position_[i] - path_.at[rows[j]];
+    if (rows[j] >= 0) offset[i] = position_[i] - at[rows[j]];
   }
-  const double away = offset.cwiseAbs().maxCoeff();
+  Eigen::Index farthest = 0;
+  const double away = offset.cwiseAbs().maxCoeff(&farthest);
   if (!(away <= cell_->execution.start_tolerance_rad)) {
-    throw std::logic_error("SimulatedArm::start: the arm is " + std::to_string(away) +
-                           " rad away from the trajectory");
+    const Joint& joint = cell_->joint(joints_[static_cast<std::size_t>(farthest)]);
+    return joint.name + " is " + std::to_string(away) + ' ' + joint.unit() + " from the trajectory";
   }
-  path_.trajectory = std::move(trajectory);
-  path_.rows = std::move(rows);
-  offset_.left = std::move(offset);
-  offset_.is_any = away > 0.0;
-  motion_.follow(path_.trajectory, from_progress, authority);
-  start_at_ = start_at;
+  path_ = {follow.trajectory, std::move(rows), at, at};
+  offset_ = {std::move(offset), away > 0.0};
+  return {};
+}
+
+std::string SimulatedArm::carry_out(const ArmCommand::Follow& follow) {
+  if (under_way() || coasting_) return "the arm is in motion";
+  if (std::string why = mapped(follow); !why.empty()) return why;
+  motion_.follow(path_.trajectory, follow.from, follow.authority);
+  start_at_ = follow.start_at;
+  switches_off_ = false;
   feedback_.phase = Phase::waiting;
   feedback_.rests_at.reset();
-  feedback_.commanded_progress = from_progress;
-  feedback_.measured_progress = from_progress;
+  feedback_.detail.clear();
+  feedback_.drives_on = true;
+  feedback_.commanded_progress = follow.from;
+  feedback_.measured_progress = follow.from;
+  feedback_.authority = motion_.authority();
+  return {};
 }
 
-void SimulatedArm::grant(Duration authority) {
-  if (!path_.trajectory) throw std::logic_error("SimulatedArm::grant: no motion");
-  if (under_way()) motion_.grant(authority);
+std::string SimulatedArm::carry_out(const ArmCommand::Extend& extend) {
+  if (!path_.trajectory) return "there is no motion";
+  if (!under_way()) return {};
+  motion_.grant(extend.authority);
+  feedback_.authority = motion_.authority();
+  return {};
 }
 
-void SimulatedArm::brake() {
+std::string SimulatedArm::carry_out(const ArmCommand::Brake& brake) {
+  if (brake.category == StopCategory::switch_off) {
+    feedback_.drives_on = false;
+    if (feedback_.phase == Phase::moving || feedback_.phase == Phase::braking) {
+      JointState state;
+      path_.trajectory->sample(feedback_.measured_progress, state);
+      coasting_ = Eigen::VectorXd::Zero(position_.size());
+      for (std::size_t j = 0; j < path_.rows.size(); ++j) {
+        if (path_.rows[j] < 0) continue;
+        (*coasting_)[static_cast<Eigen::Index>(j)] = motion_.rate() * state.velocity[path_.rows[j]];
+      }
+      feedback_.phase = Phase::braking;
+      feedback_.rests_at.reset();
+      return {};
+    }
+  }
+  switches_off_ = brake.category != StopCategory::brake;
   if (feedback_.phase == Phase::waiting) {
     feedback_.phase = Phase::stopped;
   } else if (feedback_.phase == Phase::moving &&
@@ -95,20 +135,43 @@ void SimulatedArm::brake() {
     feedback_.phase = Phase::braking;
     feedback_.rests_at = motion_.stop_from_here();
   }
+  if (switches_off_ && !under_way()) feedback_.drives_on = false;
+  return {};
 }
 
-void SimulatedArm::release() {
-  if (under_way()) throw std::logic_error("SimulatedArm::release: a motion is under way");
+std::string SimulatedArm::carry_out(const ArmCommand::Release&) {
+  if (under_way() || coasting_) return "the arm is in motion";
   path_.trajectory.reset();
   feedback_.phase = Phase::idle;
   feedback_.commanded_progress = Duration{};
   feedback_.measured_progress = Duration{};
+  feedback_.authority = Duration{};
+  return {};
+}
+
+std::string SimulatedArm::carry_out(const ArmCommand::SetSpeed& speed) {
+  return speed.share == 1.0 ? std::string() : "this controller has no speed override";
+}
+
+// ---- Each control cycle ----
+
+const ArmFeedback* SimulatedArm::poll(TimePoint now) {
+  if (polled_at_ == now) return nullptr;
+  polled_at_ = now;
+  tick(now);
+  if (now < reports_at_) return nullptr;
+  reports_at_ = std::max(reports_at_ + controller_.feedback_period, now + kControlPeriod);
+  ++feedback_.sequence;
+  feedback_.controller_time = now.time_since_epoch();
+  return &feedback_;
 }
 
 const ArmFeedback& SimulatedArm::tick(TimePoint now) {
   if (now < last_tick_) throw std::logic_error("SimulatedArm::tick: time runs backwards");
   const TimePoint previous = std::exchange(last_tick_, now);
-  if (feedback_.phase == Phase::waiting) {
+  if (coasting_) {
+    coast(now - previous);
+  } else if (feedback_.phase == Phase::waiting) {
     if (now >= start_at_) begin(now, previous);
   } else if (under_way()) {
     advance(now - previous);
@@ -119,7 +182,27 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
   return feedback_;
 }
 
+// Each joint brakes by itself, until all rest off the path.
+void SimulatedArm::coast(Duration period) {
+  const double period_s = to_seconds(period);
+  double fastest = 0.0;
+  for (Eigen::Index i = 0; i < position_.size(); ++i) {
+    double& velocity = (*coasting_)[i];
+    const double slower = cell_->joint(joints_[static_cast<std::size_t>(i)]).brake * period_s;
+    const double after = std::copysign(std::max(0.0, std::abs(velocity) - slower), velocity);
+    position_[i] += 0.5 * (velocity + after) * period_s;
+    velocity = after;
+    fastest = std::max(fastest, std::abs(after));
+  }
+  if (controller_.noise_rad <= 0.0) feedback_.measured = position_;
+  if (fastest > 0.0) return;
+  coasting_.reset();
+  feedback_.phase = Phase::fault;
+  feedback_.detail = "the drives were switched off in motion: the arm left its path";
+}
+
 bool SimulatedArm::stands() const {
+  if (coasting_) return false;
   if (!under_way() || feedback_.phase == Phase::waiting) return true;
   return feedback_.phase == Phase::moving && motion_.rate() == 0.0 && !offset_.is_any &&
          motion_.progress() >= motion_.end() &&
@@ -191,6 +274,7 @@ void SimulatedArm::settle() {
   } else if (feedback_.phase == Phase::braking) {
     feedback_.phase = Phase::stopped;
   }
+  if (switches_off_ && !under_way()) feedback_.drives_on = false;
 }
 
 void SimulatedArm::place() {

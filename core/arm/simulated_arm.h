@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/arm/arm_controller.h"
@@ -28,30 +30,39 @@ namespace armloom {
 // - A brake near the goal may end at the goal. The phase is then `finished`.
 // - An arm that starts off the path (within execution.start_tolerance_rad) approaches the path with
 //   the lag.
-// - It never reports `fault`.
-// Broken preconditions throw std::logic_error.
+// - Commands take effect when they are sent. It reports every
+//   ControllerDescription::feedback_period.
+// - Drives that are switched off in motion (StopCategory::switch_off) let each joint brake by
+//   itself, off the path. At rest, the phase is then `fault`, as is that of a rejected motion.
 class SimulatedArm final : public ArmController {
  public:
   // `q_start`: positions of arm.joints followed by arm.gripper_joints.
   SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std::uint64_t seed);
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return joints_; }
-  void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
-             Duration authority) override;
-  void grant(Duration authority) override;
-  void brake() override;
-  void release() override;
-  const ArmFeedback& tick(TimePoint now) override;
+  void send(const ArmCommand& command) override;
+  [[nodiscard]] const ArmFeedback* poll(TimePoint now) override;
+  [[nodiscard]] const Eigen::VectorXd* true_positions() const override { return &position_; }
+  // Runs one control cycle up to `now` and returns the arm's state. Called by poll().
+  const ArmFeedback& tick(TimePoint now);
 
  private:
+  // Each returns why the command is rejected; empty if it is carried out.
+  std::string carry_out(const ArmCommand::Follow& follow);
+  std::string carry_out(const ArmCommand::Extend& extend);
+  std::string carry_out(const ArmCommand::Brake& brake);
+  std::string carry_out(const ArmCommand::Release& release);
+  std::string carry_out(const ArmCommand::SetSpeed& speed);
   void begin(TimePoint now, TimePoint previous);
   void advance(Duration period);
   void lag_behind(Duration commanded_before, Duration period);
   void settle();
+  void coast(Duration period);
   void place();    // position_ from the measured progress
   void measure();  // feedback_.measured from position_
   [[nodiscard]] bool under_way() const;
   [[nodiscard]] bool stands() const;
+  [[nodiscard]] std::string mapped(const ArmCommand::Follow& follow);
 
   CellPtr cell_;
   std::vector<JointId> joints_;
@@ -60,6 +71,8 @@ class SimulatedArm final : public ArmController {
   CommandedProgress motion_;
   TimePoint start_at_{};
   TimePoint last_tick_{};
+  std::optional<TimePoint> polled_at_;
+  TimePoint reports_at_{};  // time of the next report
 
   struct Path {
     TrajectoryPtr trajectory;
@@ -74,6 +87,8 @@ class SimulatedArm final : public ArmController {
     bool is_any = false;
   };
   Offset offset_;
+  std::optional<Eigen::VectorXd> coasting_;  // velocities of joints_ while the drives are off
+  bool switches_off_ = false;                // at the end of this brake
   ArmFeedback feedback_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace armloom {
 
-ArmFaults::ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms, Asked asked)
+ArmFaults::ArmFaults(CellPtr cell, const std::vector<MadeController>& arms, Asked asked)
     : cell_(std::move(cell)), asked_(std::move(asked)) {
-  for (const auto& arm : arms) arms_.push_back(arm.get());
+  for (const MadeController& arm : arms) arms_.push_back(arm.faults);
 }
 
 Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request) {
@@ -18,6 +18,13 @@ Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request) {
   if (!arm) {
     return failure(Problem{ProblemKind::invalid, "unknown-arm", "/arm",
                            "no arm is named \"" + request.arm + "\": GET /arms lists the arms",
+                           request.arm});
+  }
+  if (arms_[arm->index()] == nullptr) {
+    return failure(Problem{ProblemKind::invalid, "no-simulated-arm", "/arm",
+                           "arm " + request.arm +
+                               " has a controller of its own, which takes no "
+                               "faults: name a simulated arm",
                            request.arm});
   }
   ArmFault fault{
@@ -29,7 +36,9 @@ Result<std::uint64_t> ArmFaults::inject(const FaultRequest& request) {
 
 Result<void> ArmFaults::remove(std::uint64_t id) {
   asked_({ExecutiveInput::FaultRemoved{id}});
-  if (std::ranges::any_of(arms_, [id](FaultyArm* arm) { return arm->remove(id); })) return {};
+  if (std::ranges::any_of(arms_,
+                          [id](FaultTarget* arm) { return arm != nullptr && arm->remove(id); }))
+    return {};
   return failure(Problem{ProblemKind::not_found, "unknown-fault", "",
                          "there is no fault " + std::to_string(id), static_cast<double>(id)});
 }

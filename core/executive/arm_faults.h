@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/arm/faulty_arm.h"
+#include "core/arm/make_controller.h"
 #include "core/base/problem.h"
 #include "core/model/cell.h"
 
@@ -29,17 +29,17 @@ class ArmFaults {
  public:
   // Called with each request, also an invalid one. Returns the present time.
   using Asked = std::function<TimePoint(const ExecutiveInput&)>;
-  // `arms`, by ArmId, outlive this object.
-  ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms, Asked asked);
+  // `arms`, by ArmId; their controllers outlive this object.
+  ArmFaults(CellPtr cell, const std::vector<MadeController>& arms, Asked asked);
 
-  // Returns the fault's number. Problem: an unknown arm.
+  // Returns the fault's number. Problems: an unknown arm; an arm whose controller takes no faults.
   [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& request);
   // Problem: an unknown fault.
   [[nodiscard]] Result<void> remove(std::uint64_t id);
 
  private:
   CellPtr cell_;
-  std::vector<FaultyArm*> arms_;
+  std::vector<FaultTarget*> arms_;  // by ArmId; null if the controller takes no faults
   Asked asked_;
   std::uint64_t next_ = 1;
 };

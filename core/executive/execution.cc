@@ -1,14 +1,14 @@
 #include "core/executive/execution.h"
 
-#include <iterator>
 #include <utility>
 
 namespace armloom {
 namespace {
 
-std::vector<std::unique_ptr<ArmController>> controllers(
-    std::vector<std::unique_ptr<FaultyArm>> arms) {
-  return {std::make_move_iterator(arms.begin()), std::make_move_iterator(arms.end())};
+std::vector<std::unique_ptr<ArmController>> controllers(std::vector<MadeController> made) {
+  std::vector<std::unique_ptr<ArmController>> all;
+  for (MadeController& arm : made) all.push_back(std::move(arm.controller));
+  return all;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace armloom {
 class Execution {
  public:
   struct Made {
-    std::vector<std::unique_ptr<FaultyArm>> arms;  // at home
+    std::vector<MadeController> arms;  // by ArmId
     SceneFingerprint scene;
   };
   // `log` outlives this object; may be null.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/arm/faulty_arm.h"
+#include "core/arm/make_controller.h"
 #include "core/base/problem.h"
 #include "core/coordination/diagram.h"
 #include "core/coordination/motion.h"
@@ -109,6 +109,7 @@ struct ExecutiveOptions {
   std::string policy;                             // the cell's if empty
   std::shared_ptr<const Policy> own_policy = {};  // overrides `policy`
   std::uint64_t seed = 1;                         // for the noise of the simulated arms
+  ControllerTypes controllers = {};               // simulated_controllers() if empty
   std::size_t ended_kept = 1000;
   std::size_t waiting_max = 10'000;  // active jobs
   // Largest memory for trajectories of active jobs. Jobs that would exceed it are refused.

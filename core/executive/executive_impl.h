@@ -31,7 +31,7 @@ class Executive::Impl {
     CellPtr cell;
     PlanningScenePtr scene;
     std::shared_ptr<const Policy> policy;
-    std::vector<std::unique_ptr<FaultyArm>> arms;
+    std::vector<MadeController> arms;
   };
   Impl(Checked checked, ExecutiveOptions options, JudgementService& judges, Observer& observer);
 

@@ -20,11 +20,13 @@ bool at_rest(Phase phase) {
 
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
-    : cell_(std::move(cell)),
-      controllers_(std::move(controllers)),
-      feedback_(controllers_.size()),
-      advances_(controllers_.size(), false),
-      measured_(std::move(measured)) {}
+    : cell_(std::move(cell)), measured_(std::move(measured)) {
+  for (std::size_t a = 0; a < controllers.size(); ++a) {
+    const Robot& robot = cell_->robots[cell_->arms[a].robot.index()];
+    ArmLink link(robot.controller, joints_of(measured_, controllers[a]->joints()));
+    arms_.push_back({std::move(controllers[a]), std::move(link)});
+  }
+}
 
 void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory) {
   Motion& motion = motions_[dispatch.job];
@@ -41,51 +43,60 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
     const auto stands_at = motion.stands_at.find(arm);
     const Duration from =
         stands_at == motion.stands_at.end() ? dispatch.from_progress : stands_at->second;
-    feedback_[arm.index()].settled = false;  // until its next tick
-    controllers_[arm.index()]->start(
-        trajectory, dispatch.start_at + (from - dispatch.from_progress), from, motion.handed_on);
+    command(arm, ArmCommand::Follow{trajectory, dispatch.start_at + (from - dispatch.from_progress),
+                                    from, motion.handed_on});
   }
 }
 
 void Motions::grant(const Grant& grant) {
   Motion& motion = motions_.at(grant.job);
   motion.authority = grant.authority;
-  for (ArmId arm : motion.trajectory->arms()) feedback_[arm.index()].settled = false;
   if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
-  for (ArmId arm : motion.trajectory->arms()) controllers_[arm.index()]->grant(grant.authority);
+  command(motion.trajectory->arms().front(), ArmCommand::Extend{grant.authority});
 }
 
 void Motions::brake_all() {
-  for (const auto& controller : controllers_) controller->brake();
+  for (LinkedArm& arm : arms_) {
+    arm.link.command(ArmCommand::Brake{});
+    arm.link.flush(*arm.controller);
+  }
 }
 
 void Motions::brake(JobId job) {
   Motion& motion = motions_.at(job);
   motion.braking = true;
-  for (ArmId arm : motion.trajectory->arms()) {
-    feedback_[arm.index()].settled = false;
-    controllers_[arm.index()]->brake();
-  }
+  for (ArmId arm : motion.trajectory->arms()) command(arm, ArmCommand::Brake{});
 }
 
 void Motions::release(JobId job) {
   const auto it = motions_.find(job);
   if (it == motions_.end()) return;
-  for (ArmId arm : it->second.trajectory->arms()) controllers_[arm.index()]->release();
+  for (ArmId arm : it->second.trajectory->arms()) command(arm, ArmCommand::Release{});
   motions_.erase(it);
 }
 
 void Motions::tick_arms(TimePoint now) {
-  for (std::uint32_t a = 0; a < controllers_.size(); ++a) {
-    const Duration before = feedback_[a].measured_progress;
-    feedback_[a] = controllers_[a]->tick(now);
-    advances_[a] = feedback_[a].measured_progress != before && moving(ArmId{a});
-    const auto& joints = controllers_[a]->joints();
+  for (LinkedArm& arm : arms_) {
+    const Duration before = arm.link.feedback().measured_progress;
+    arm.link.exchange(*arm.controller, now);
+    const ArmFeedback& feedback = arm.link.feedback();
+    const bool moves = feedback.phase == Phase::moving || feedback.phase == Phase::braking;
+    arm.advances = feedback.measured_progress != before && moves;
+    const auto& joints = arm.controller->joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {
       measured_[static_cast<Eigen::Index>(joints[j].index())] =
-          feedback_[a].measured[static_cast<Eigen::Index>(j)];
+          feedback.measured[static_cast<Eigen::Index>(j)];
     }
   }
+}
+
+Configuration Motions::true_positions() const {
+  Configuration q = measured_;
+  for (const LinkedArm& arm : arms_) {
+    const Eigen::VectorXd* truth = arm.controller->true_positions();
+    if (truth != nullptr) set_joints(q, arm.controller->joints(), *truth);
+  }
+  return q;
 }
 
 const std::vector<MotionReport>& Motions::tick(TimePoint now) {
@@ -101,7 +112,7 @@ const std::vector<MotionReport>& Motions::tick(TimePoint now) {
 void Motions::keep_together(Motion& motion) {
   Duration last = motion.trajectory->duration();
   for (ArmId arm : motion.trajectory->arms()) {
-    last = std::min(last, feedback_[arm.index()].commanded_progress);
+    last = std::min(last, feedback(arm).commanded_progress);
   }
   // In steps, as an arm plans its brake anew for each one.
   const Duration reach = last + motion.ahead_max;
@@ -109,8 +120,8 @@ void Motions::keep_together(Motion& motion) {
     motion.handed_on = std::min(reach, motion.authority);
   }
   for (ArmId arm : motion.trajectory->arms()) {
-    const bool ahead = feedback_[arm.index()].commanded_progress - last > kOutOfStep;
-    controllers_[arm.index()]->grant(ahead ? std::min(last, motion.handed_on) : motion.handed_on);
+    const bool ahead = feedback(arm).commanded_progress - last > kOutOfStep;
+    command(arm, ArmCommand::Extend{ahead ? std::min(last, motion.handed_on) : motion.handed_on});
   }
 }
 
@@ -121,20 +132,20 @@ void Motions::report(JobId job, Motion& motion) {
   Duration progress = motion.trajectory->duration(), farthest{};
   std::optional<Duration> rests_at = progress;
   for (ArmId arm : motion.trajectory->arms()) {
-    const ArmFeedback& feedback = feedback_[arm.index()];
-    all_rest = all_rest && at_rest(feedback.phase);
-    all_finished = all_finished && feedback.phase == Phase::finished;
+    const ArmFeedback& said = feedback(arm);
+    all_rest = all_rest && at_rest(said.phase);
+    all_finished = all_finished && said.phase == Phase::finished;
     any_moves = any_moves || moving(arm);
-    if (feedback.phase == Phase::fault) fault = &feedback;
-    progress = std::min(progress, feedback.measured_progress);
-    farthest = std::max(farthest, feedback.measured_progress);
-    rests_at = rests_at && feedback.rests_at ? std::min(rests_at, feedback.rests_at) : std::nullopt;
+    if (said.phase == Phase::fault) fault = &said;
+    progress = std::min(progress, said.measured_progress);
+    farthest = std::max(farthest, said.measured_progress);
+    rests_at = rests_at && said.rests_at ? std::min(rests_at, said.rests_at) : std::nullopt;
   }
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
     motion.resting = true;
     for (ArmId arm : motion.trajectory->arms()) {
-      motion.stands_at[arm] = feedback_[arm.index()].measured_progress;
+      motion.stands_at[arm] = feedback(arm).measured_progress;
     }
     const auto kind = fault          ? MotionReport::Kind::faulted
                       : all_finished ? MotionReport::Kind::finished
@@ -150,19 +161,23 @@ void Motions::report(JobId job, Motion& motion) {
 }
 
 bool Motions::moving(ArmId arm) const {
-  const Phase phase = feedback_[arm.index()].phase;
+  const Phase phase = feedback(arm).phase;
   return phase == Phase::moving || phase == Phase::braking;
 }
 
-bool Motions::all_at_rest() const { return std::ranges::all_of(feedback_, &ArmFeedback::at_rest); }
-bool Motions::all_settled() const { return std::ranges::all_of(feedback_, &ArmFeedback::settled); }
+bool Motions::all_at_rest() const {
+  return std::ranges::all_of(arms_, [](const auto& arm) { return arm.link.feedback().at_rest; });
+}
+bool Motions::all_settled() const {
+  return std::ranges::all_of(arms_, [](const auto& arm) { return arm.link.feedback().settled; });
+}
 
 double Motions::deviation(ArmId arm) const {
   for (const auto& [job, motion] : motions_) {
     const auto& arms = motion.trajectory->arms();
     if (std::ranges::find(arms, arm) == arms.end()) continue;
     Eigen::VectorXd path;
-    motion.trajectory->sample_positions(feedback_[arm.index()].measured_progress, path);
+    motion.trajectory->sample_positions(feedback(arm).measured_progress, path);
     double largest = 0.0;
     for (std::size_t j = 0; j < motion.trajectory->joints().size(); ++j) {
       const JointId joint = motion.trajectory->joints()[j];
@@ -179,7 +194,7 @@ std::vector<Motions::UnderWay> Motions::under_way() const {
   std::vector<UnderWay> all;
   for (const auto& [job, motion] : motions_) {
     for (ArmId arm : motion.trajectory->arms()) {
-      all.push_back({arm, job, feedback_[arm.index()].measured_progress, motion.authority});
+      all.push_back({arm, job, feedback(arm).measured_progress, motion.authority});
     }
   }
   return all;

@@ -2,9 +2,11 @@
 
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/arm/arm_controller.h"
+#include "core/arm/arm_link.h"
 #include "core/coordination/in_step.h"
 #include "core/jobs/inputs.h"
 #include "core/model/cell.h"
@@ -34,10 +36,13 @@ class Motions {
 
   // Returns the positions measured in the last tick, of all joints of the cell (rad, m).
   [[nodiscard]] const Configuration& measured() const { return measured_; }
-  [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return feedback_[arm.index()]; }
+  [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return link(arm).feedback(); }
+  [[nodiscard]] const ArmLink& link(ArmId arm) const { return arms_[arm.index()].link; }
+  // Positions of all joints as they really are, where arms are simulated; else as measured.
+  [[nodiscard]] Configuration true_positions() const;
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
-  [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
+  [[nodiscard]] bool advances(ArmId arm) const { return arms_[arm.index()].advances; }
   [[nodiscard]] bool all_at_rest() const;
   // Returns true if all arms rest, and stay at rest until the next command.
   [[nodiscard]] bool all_settled() const;
@@ -65,13 +70,22 @@ class Motions {
     bool resting = false;  // its end was reported
     bool braking = false;
   };
+  struct LinkedArm {
+    std::unique_ptr<ArmController> controller;
+    ArmLink link;
+    bool advances = false;
+  };
+  template <class Command>
+  void command(ArmId arm, Command what) {
+    LinkedArm& to = arms_[arm.index()];
+    to.link.command(std::move(what));
+    to.link.flush(*to.controller);
+  }
   void report(JobId job, Motion& motion);
   void keep_together(Motion& motion);
 
   CellPtr cell_;
-  std::vector<std::unique_ptr<ArmController>> controllers_;  // ArmId
-  std::vector<ArmFeedback> feedback_;                        // ArmId
-  std::vector<bool> advances_;                               // ArmId
+  std::vector<LinkedArm> arms_;  // by ArmId
   Configuration measured_;
   std::map<JobId, Motion> motions_;
   std::vector<MotionReport> reports_;

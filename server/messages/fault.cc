@@ -181,7 +181,7 @@ FormatPtr<FaultRequest> fault_request_format() {
       "FaultRequest",
       "A fault of a simulated arm. `stall`: the arm stays where it is on its path. `slow`: the arm "
       "follows its path at a share of its speed. `late_start`: the arm begins each motion late. "
-      "`drop_feedback`: the arm repeats its last feedback. `fault`: the controller fails once, "
+      "`drop_feedback`: no report of the arm arrives. `fault`: the controller fails once, "
       "from `at_s` on: during the present motion, or else as soon as the next motion moves.",
       make_fault_format(Need::optional));
   return format;

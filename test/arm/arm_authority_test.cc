@@ -36,7 +36,7 @@ TEST(Authority, IsReachedButNeverExceeded) {
     Case c(seed);
     const Duration duration = c.trajectory->duration();
     Duration authority = share_of(duration, c.random);
-    c.bench.arm.start(c.trajectory, at(0ms), {}, authority);
+    c.bench.command.start(c.trajectory, at(0ms), {}, authority);
     int at_rest = 0;
     for (int i = 0; i < 200'000; ++i) {
       const ArmFeedback& feedback = c.bench.tick();
@@ -48,7 +48,7 @@ TEST(Authority, IsReachedButNeverExceeded) {
       at_rest = feedback.measured_progress == authority ? at_rest + 1 : 0;
       if (at_rest > 50 || c.random() % 400 == 0) {
         authority += share_of(duration / 4, c.random) + 1us;
-        c.bench.arm.grant(authority);
+        c.bench.command.grant(authority);
       }
     }
     EXPECT_EQ(c.bench.tick().phase, Phase::finished) << seed;
@@ -61,7 +61,7 @@ TEST(Authority, IsReachedButNeverExceeded) {
 TEST(Authority, ArmRestsExactlyAtItsAuthority) {
   Case c(5);
   const Duration authority = c.trajectory->duration() / 2;
-  c.bench.arm.start(c.trajectory, at(0ms), {}, authority);
+  c.bench.command.start(c.trajectory, at(0ms), {}, authority);
   const ArmFeedback& feedback = c.bench.tick_for(authority + 600ms);
   EXPECT_EQ(feedback.phase, Phase::moving);
   EXPECT_EQ(feedback.measured_progress, authority);
@@ -71,21 +71,21 @@ TEST(Authority, ArmRestsExactlyAtItsAuthority) {
 TEST(Authority, TimelyExtensionCausesNoDelay) {
   Case c(2);
   const Duration duration = c.trajectory->duration();
-  c.bench.arm.start(c.trajectory, at(0ms), {}, 800ms);
+  c.bench.command.start(c.trajectory, at(0ms), {}, 800ms);
   Duration authority = 800ms;
   while (c.bench.now < at(duration)) {
     const ArmFeedback& feedback = c.bench.tick();
     ASSERT_EQ(feedback.commanded_progress,
               std::min<Duration>(c.bench.now.time_since_epoch(), duration));
-    c.bench.arm.grant(authority += kControlPeriod);
+    c.bench.command.grant(authority += kControlPeriod);
   }
 }
 
 TEST(Authority, ZeroAuthorityKeepsTheArmAtRest) {
   Case c(1);
-  c.bench.arm.start(c.trajectory, at(0ms), {}, 0ms);
+  c.bench.command.start(c.trajectory, at(0ms), {}, 0ms);
   EXPECT_EQ(c.bench.tick_for(100ms).commanded_progress, 0ms);
-  c.bench.arm.grant(c.trajectory->duration());
+  c.bench.command.grant(c.trajectory->duration());
   EXPECT_EQ(c.bench.tick_for(10ms).commanded_progress, 10ms);
   c.bench.tick_until(Phase::finished);
 }
@@ -97,15 +97,15 @@ TEST(Authority, ReducedAuthorityStopsNoLaterThanABrake) {
     const Duration duration = c.trajectory->duration();
     const Duration run = duration / 4 + share_of(duration / 4, c.random);
     const Duration ahead = share_of(duration / 3, c.random);
-    c.bench.arm.start(c.trajectory, at(0ms), {}, duration);
-    braked.bench.arm.start(braked.trajectory, at(0ms), {}, duration);
+    c.bench.command.start(c.trajectory, at(0ms), {}, duration);
+    braked.bench.command.start(braked.trajectory, at(0ms), {}, duration);
     const Duration here = c.bench.tick_for(run).commanded_progress;
     c.gauge.observe(braked.bench.tick_for(run), true);
-    braked.bench.arm.brake();
+    braked.bench.command.brake();
     while (braked.bench.tick().phase == Phase::braking) {
     }
     const Duration brake_stop = braked.bench.tick().measured_progress;
-    c.bench.arm.grant(here + ahead);
+    c.bench.command.grant(here + ahead);
     for (int i = 0; i < 12'000; ++i) c.gauge.observe(c.bench.tick(), true);
     const Duration expected = std::max(here + ahead, brake_stop);
     EXPECT_EQ(c.bench.tick().measured_progress, expected) << seed;
@@ -118,12 +118,12 @@ TEST(Authority, BrakeStopsBeforeTheAuthorityAndMotionContinues) {
     Case c(seed);
     const Duration duration = c.trajectory->duration();
     const Duration authority = duration / 2;
-    c.bench.arm.start(c.trajectory, at(0ms), {}, authority);
+    c.bench.command.start(c.trajectory, at(0ms), {}, authority);
     c.gauge.observe(c.bench.tick(), true);
     for (Duration t{}; t < authority * 9 / 10; t += kControlPeriod) {
       c.gauge.observe(c.bench.tick(), true);
     }
-    c.bench.arm.brake();
+    c.bench.command.brake();
     Duration stopped_at{};
     while (true) {
       const ArmFeedback& feedback = c.bench.tick();
@@ -132,7 +132,7 @@ TEST(Authority, BrakeStopsBeforeTheAuthorityAndMotionContinues) {
       ASSERT_LE(feedback.commanded_progress, authority) << seed;
       if (feedback.phase == Phase::stopped) break;
     }
-    c.bench.arm.start(c.trajectory, c.bench.now, stopped_at, duration);
+    c.bench.command.start(c.trajectory, c.bench.now, stopped_at, duration);
     while (true) {
       const ArmFeedback& feedback = c.bench.tick();
       c.gauge.observe(feedback, true);

@@ -32,6 +32,24 @@ enum class Pieces {
 // Returns the controller's joint positions at the start of `trajectory`; other joints are at zero.
 [[nodiscard]] Eigen::VectorXd at_start(const Trajectory& trajectory, const Cell& cell, ArmId arm);
 
+// Sends commands to a controller and numbers them.
+struct Commander {
+  explicit Commander(ArmController& the_controller) : controller(the_controller) {}
+
+  void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from, Duration authority) {
+    controller.send(
+        {++number, ArmCommand::Follow{std::move(trajectory), start_at, from, authority}});
+  }
+  void grant(Duration authority) { controller.send({++number, ArmCommand::Extend{authority}}); }
+  void brake(StopCategory category = StopCategory::brake) {
+    controller.send({++number, ArmCommand::Brake{category}});
+  }
+  void release() { controller.send({++number, ArmCommand::Release{}}); }
+
+  ArmController& controller;
+  CommandNumber number = 0;
+};
+
 struct Bench {
   Bench(CellPtr the_cell, ArmId the_arm, const Trajectory& first, std::uint64_t seed = 1)
       : cell(std::move(the_cell)), arm(cell, the_arm, at_start(first, *cell, the_arm), seed) {}
@@ -51,6 +69,7 @@ struct Bench {
 
   CellPtr cell;
   SimulatedArm arm;
+  Commander command{arm};
   TimePoint now{};
 };
 

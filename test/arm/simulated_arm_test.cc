@@ -66,7 +66,7 @@ TEST(SimulatedArm, MeasuredProgressFollowsTheCommandByTheLag) {
 TEST(SimulatedArm, StartBetweenTwoTicksLosesNoTime) {
   Example e;
   e.bench.tick_for(10ms);
-  e.bench.arm.start(e.trajectory, at(12ms + 300us), {}, e.trajectory->duration());
+  e.bench.command.start(e.trajectory, at(12ms + 300us), {}, e.trajectory->duration());
   EXPECT_EQ(e.bench.tick().phase, Phase::waiting);
   EXPECT_EQ(e.bench.tick().phase, Phase::waiting);
   const ArmFeedback& feedback = e.bench.tick();
@@ -79,7 +79,7 @@ TEST(SimulatedArm, StartBetweenTwoTicksLosesNoTime) {
 TEST(SimulatedArm, StartInThePastStartsAtTheNextTick) {
   Example e;
   e.bench.tick_for(100ms);
-  e.bench.arm.start(e.trajectory, at(40ms), {}, e.trajectory->duration());
+  e.bench.command.start(e.trajectory, at(40ms), {}, e.trajectory->duration());
   EXPECT_EQ(e.bench.tick().commanded_progress, 0ms);
   EXPECT_EQ(e.bench.tick().commanded_progress, 1ms);
 }
@@ -98,7 +98,7 @@ TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
   segments.push_back(back);
   const auto second =
       std::make_shared<const Trajectory>(joints_of(*e.cell, kLeft), std::vector{kLeft}, segments);
-  e.bench.arm.start(second, e.bench.now, {}, second->duration());
+  e.bench.command.start(second, e.bench.now, {}, second->duration());
   const ArmFeedback& feedback = e.bench.tick_until(Phase::finished);
   EXPECT_LT((feedback.measured.head(7) - e.trajectory->start()).norm(), 1e-12);
 }
@@ -112,7 +112,7 @@ TEST(SimulatedArm, JointsOutsideTheTrajectoryDoNotMove) {
   q[2] = trajectory->start()[0];
   q[3] = trajectory->start()[2];
   SimulatedArm arm(e.cell, kLeft, q, 1);
-  arm.start(trajectory, at(0ms), {}, trajectory->duration());
+  Commander(arm).start(trajectory, at(0ms), {}, trajectory->duration());
   TimePoint now{};
   while (arm.tick(now += kControlPeriod).phase != Phase::finished) {
   }
@@ -132,10 +132,11 @@ TEST(SimulatedArm, ArmsOfOneSynchronousTrajectoryBrakeAndContinueInStep) {
   Bench right(cell, kRight, *both);
   Duration from{};
   for (int round = 0; round < 3; ++round) {
-    for (Bench* bench : {&left, &right}) bench->arm.start(both, bench->now, from, both->duration());
+    for (Bench* bench : {&left, &right})
+      bench->command.start(both, bench->now, from, both->duration());
     for (int i = 0; i < 1500; ++i) {
-      if (i == 500) left.arm.brake();
-      if (i == 500) right.arm.brake();
+      if (i == 500) left.command.brake();
+      if (i == 500) right.command.brake();
       from = left.tick().commanded_progress;
       ASSERT_EQ(from, right.tick().commanded_progress) << round << " " << i;
     }
@@ -146,10 +147,10 @@ TEST(SimulatedArm, IsDeterministicForASeed) {
   const auto run = [](std::uint64_t seed) {
     Example e({.noise_rad = 0.001}, 1);
     Bench bench(e.cell, kLeft, *e.trajectory, seed);
-    bench.arm.start(e.trajectory, at(5ms), {}, e.trajectory->duration());
+    bench.command.start(e.trajectory, at(5ms), {}, e.trajectory->duration());
     std::vector<double> all;
     for (int i = 0; i < 3000; ++i) {
-      if (i == 700) bench.arm.brake();
+      if (i == 700) bench.command.brake();
       const ArmFeedback& feedback = bench.tick();
       all.insert(all.end(), feedback.measured.begin(), feedback.measured.end());
     }
@@ -181,7 +182,7 @@ TEST(SimulatedArm, StartSlightlyOffThePathIsPulledInSmoothly) {
   Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
   q[1] += 0.009;
   SimulatedArm arm(e.cell, kLeft, q, 1);
-  arm.start(e.trajectory, at(0ms), {}, e.trajectory->duration());
+  Commander(arm).start(e.trajectory, at(0ms), {}, e.trajectory->duration());
   TimePoint now{};
   Eigen::VectorXd last = q;
   ArmFeedback feedback;
@@ -193,45 +194,127 @@ TEST(SimulatedArm, StartSlightlyOffThePathIsPulledInSmoothly) {
   EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
 }
 
-TEST(SimulatedArm, ThrowsOnViolatedPreconditions) {
+TEST(SimulatedArm, RejectsCommandsThatItCannotCarryOut) {
   Example e;
-  EXPECT_THROW(e.bench.arm.grant(1s), std::logic_error);
-  EXPECT_THROW(e.start_now(1s), std::logic_error);  // the arm is at the start, not at 1 s
-  EXPECT_THROW(e.start_now(e.trajectory->duration() + 1ms), std::logic_error);
-  EXPECT_THROW(e.start_now(-1ms), std::logic_error);
-  EXPECT_THROW(e.bench.arm.start(nullptr, at(0ms), {}, 1s), std::logic_error);
   const TrajectoryPtr foreign =
       random_trajectory(*e.cell, joints_of(*e.cell, kRight), {kRight}, e.random);
-  EXPECT_THROW(e.bench.arm.start(foreign, at(0ms), {}, 1s), std::logic_error);
-  EXPECT_EQ(e.bench.tick().phase, Phase::idle);  // none of these calls changed the arm
+  const auto expect_rejected = [&](const std::string& why, ArmFeedback::Phase phase) {
+    const ArmFeedback& feedback = e.bench.tick();
+    EXPECT_EQ(feedback.rejected, e.bench.command.number);
+    EXPECT_EQ(feedback.acknowledged, e.bench.command.number);
+    EXPECT_NE(feedback.detail.find(why), std::string::npos) << feedback.detail;
+    EXPECT_EQ(feedback.phase, phase) << why;
+  };
+  e.bench.command.grant(1s);
+  expect_rejected("no motion", Phase::idle);
+  e.start_now(1s);  // the arm is at the start, not at 1 s
+  expect_rejected("rad from the trajectory", Phase::fault);
+  e.start_now(e.trajectory->duration() + 1ms);
+  expect_rejected("outside the trajectory", Phase::fault);
+  e.start_now(-1ms);
+  expect_rejected("outside the trajectory", Phase::fault);
+  e.bench.command.start(nullptr, at(0ms), {}, 1s);
+  expect_rejected("no trajectory", Phase::fault);
+  e.bench.command.start(foreign, at(0ms), {}, 1s);
+  expect_rejected("no joint of the arm", Phase::fault);
+  e.bench.command.release();
+  EXPECT_EQ(e.bench.tick().phase, Phase::idle);
   e.start_now();
-  EXPECT_THROW(e.start_now(), std::logic_error);
-  EXPECT_THROW(e.bench.arm.release(), std::logic_error);
   e.bench.tick();
+  e.start_now();
+  expect_rejected("in motion", Phase::moving);
+  e.bench.command.release();
+  expect_rejected("in motion", Phase::moving);
   EXPECT_THROW((void)e.bench.arm.tick(at(0ms)), std::logic_error);
   EXPECT_THROW(SimulatedArm(e.cell, kLeft, Eigen::VectorXd::Zero(7), 1), std::logic_error);
 }
 
-TEST(FaultyArm, FreezesItsFeedbackWhileItDropsIt) {
+TEST(SimulatedArm, IgnoresCommandsOutOfTheirOrder) {
+  Example e;
+  const ArmCommand follow{
+      1, ArmCommand::Follow{e.trajectory, at(0ms), Duration{}, e.trajectory->duration()}};
+  const ArmCommand brake{2, ArmCommand::Brake{}};
+  e.bench.arm.send(brake);
+  EXPECT_EQ(e.bench.tick().acknowledged, 0u);
+  e.bench.arm.send(follow);
+  e.bench.tick();
+  e.bench.arm.send(follow);  // sent twice: no second start
+  EXPECT_EQ(e.bench.tick().phase, Phase::moving);
+  e.bench.arm.send(brake);
+  e.bench.arm.send(follow);
+  EXPECT_EQ(e.bench.tick().phase, Phase::braking);
+  EXPECT_EQ(e.bench.tick().acknowledged, 2u);
+}
+
+TEST(SimulatedArm, SwitchesItsDrivesOffAtRestAfterACategory1Stop) {
+  Example e;
+  e.start_now();
+  e.bench.tick_for(600ms);
+  e.bench.command.brake(StopCategory::brake_then_switch_off);
+  EXPECT_TRUE(e.bench.tick().drives_on);
+  const ArmFeedback& feedback = e.bench.tick_until(Phase::stopped);
+  EXPECT_FALSE(feedback.drives_on);
+  EXPECT_LT(e.off_path(feedback, feedback.measured_progress), 1e-12);
+  e.start_now(feedback.measured_progress);
+  EXPECT_TRUE(e.bench.tick().drives_on);
+  e.bench.tick_until(Phase::finished);
+}
+
+TEST(SimulatedArm, LeavesItsPathInACategory0Stop) {
+  Example e;
+  e.start_now();
+  const Duration at = e.bench.tick_for(e.trajectory->duration() / 2).measured_progress;
+  e.bench.command.brake(StopCategory::switch_off);
+  const ArmFeedback& feedback = e.bench.tick_until(Phase::fault, 2s);
+  EXPECT_FALSE(feedback.drives_on);
+  EXPECT_TRUE(feedback.at_rest);
+  EXPECT_GT(e.off_path(feedback, at), 0.01) << "it went on without a brake";
+  const Eigen::VectorXd rest = feedback.measured;
+  EXPECT_EQ(e.bench.tick_for(100ms).measured, rest);
+}
+
+TEST(SimulatedArm, ReportsOncePerFeedbackPeriod) {
+  auto cell = std::make_shared<Cell>(*two_arm_cell());
+  cell->robots[0].controller.feedback_period = 8ms;
+  SimulatedArm arm(cell, kLeft, Eigen::VectorXd::Zero(8), 1);
+  int reports = 0;
+  std::uint64_t last = 0;
+  for (TimePoint now{}; now < at(80ms); now += kControlPeriod) {
+    while (const ArmFeedback* report = arm.poll(now)) {
+      EXPECT_EQ(report->sequence, ++last);
+      EXPECT_EQ(report->controller_time, now.time_since_epoch());
+      ++reports;
+    }
+  }
+  EXPECT_EQ(reports, 10);
+}
+
+TEST(FaultyArm, ReportsNothingWhileItDropsItsFeedback) {
   const Example example;
   const TrajectoryPtr& path = example.trajectory;
   FaultyArm arm(std::make_unique<SimulatedArm>(example.cell, kLeft,
                                                at_start(*path, *example.cell, kLeft), 1));
   TimePoint now{};
-  const auto tick_for = [&](Duration time) {
-    for (const TimePoint end = now + time; now < end;) arm.tick(now += kControlPeriod);
-    return arm.tick(now += kControlPeriod);
+  ArmFeedback last;
+  const auto reports_in = [&](Duration time) {
+    int reports = 0;
+    for (const TimePoint end = now + time; now < end;) {
+      now += kControlPeriod;
+      while (const ArmFeedback* report = arm.poll(now)) {
+        last = *report;
+        ++reports;
+      }
+    }
+    return reports;
   };
-  arm.start(path, now, {}, path->duration());
-  const Duration part = path->duration() / 4;
-  tick_for(part);
+  Commander(arm).start(path, now, {}, path->duration());
+  const Duration part = path->duration() / 4 / kControlPeriod * kControlPeriod;
+  EXPECT_EQ(reports_in(part), part / kControlPeriod);
+  const Duration before = last.measured_progress;
   arm.inject(1, {.kind = ArmFault::Kind::drop_feedback, .from = now, .until = now + part});
-  const ArmFeedback before = arm.tick(now += kControlPeriod);
-  const ArmFeedback during = tick_for(part - 4 * kControlPeriod);
-  EXPECT_EQ(during.measured, before.measured);
-  EXPECT_EQ(during.measured_progress, before.measured_progress);
-  const ArmFeedback after = tick_for(8 * kControlPeriod);
-  EXPECT_GT(after.measured_progress, before.measured_progress + part / 2) << "it went on";
+  EXPECT_LE(reports_in(part), 1);
+  EXPECT_GT(reports_in(8 * kControlPeriod), 6);
+  EXPECT_GT(last.measured_progress, before + part / 2) << "the arm went on";
 }
 
 }  // namespace

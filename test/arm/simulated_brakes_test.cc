@@ -21,7 +21,7 @@ TEST(SimulatedArm, BrakesWithinTheLimitsAndRestsOnItsPath) {
            until > 0; --until) {
         gauge.observe(e.bench.tick(), false);
       }
-      e.bench.arm.brake();
+      e.bench.command.brake();
       Duration last{};
       int braking = 0;
       while (true) {
@@ -52,7 +52,7 @@ TEST(SimulatedArm, BrakesInLessThanASecond) {
     e.start_now();
     e.bench.tick_for(e.trajectory->duration() * static_cast<int>(1 + seed % 9) / 10);
     const TimePoint asked = e.bench.now;
-    e.bench.arm.brake();
+    e.bench.command.brake();
     while (e.bench.tick().phase == Phase::braking) {
     }
     longest = std::max(longest, e.bench.now - asked);
@@ -66,7 +66,7 @@ TEST(SimulatedArm, ContinuesToItsGoalAfterABrake) {
   Example e;
   e.start_now();
   e.bench.tick_for(600ms);
-  e.bench.arm.brake();
+  e.bench.command.brake();
   const Duration stopped_at = e.bench.tick_until(Phase::stopped).measured_progress;
   e.bench.tick_for(300ms);
   e.start_now(stopped_at);
@@ -86,16 +86,16 @@ TEST(SimulatedArm, KeepsItsLimitsThroughRandomBrakesAndContinuations) {
           random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random, pieces);
       Bench bench(cell, kLeft, *trajectory);
       AccelerationGauge gauge(*cell, trajectory);
-      bench.arm.start(trajectory, at(0ms), {}, trajectory->duration());
+      bench.command.start(trajectory, at(0ms), {}, trajectory->duration());
       for (int i = 0; i < 200'000; ++i) {
         const ArmFeedback& feedback = bench.tick();
         gauge.observe(feedback,
                       feedback.phase == Phase::braking || feedback.phase == Phase::stopped);
         if (feedback.phase == Phase::finished) break;
-        if (feedback.phase == Phase::moving && random() % 500 == 0) bench.arm.brake();
+        if (feedback.phase == Phase::moving && random() % 500 == 0) bench.command.brake();
         if (feedback.phase == Phase::stopped) {
-          bench.arm.start(trajectory, bench.now, feedback.measured_progress,
-                          trajectory->duration());
+          bench.command.start(trajectory, bench.now, feedback.measured_progress,
+                              trajectory->duration());
         }
       }
       EXPECT_EQ(bench.tick().phase, Phase::finished) << seed;
@@ -107,16 +107,16 @@ TEST(SimulatedArm, KeepsItsLimitsThroughRandomBrakesAndContinuations) {
 
 TEST(SimulatedArm, BrakedBeforeItsStartStopsAtOnceAndCanBeReleased) {
   Example e;
-  e.bench.arm.start(e.trajectory, at(1s), {}, e.trajectory->duration());
+  e.bench.command.start(e.trajectory, at(1s), {}, e.trajectory->duration());
   e.bench.tick_for(10ms);
-  e.bench.arm.brake();
+  e.bench.command.brake();
   const ArmFeedback& feedback = e.bench.tick();
   EXPECT_EQ(feedback.phase, Phase::stopped);
   EXPECT_EQ(feedback.measured_progress, 0ms);
   e.bench.tick_for(2s);
   EXPECT_EQ(feedback.phase, Phase::stopped);
   EXPECT_EQ(feedback.measured, at_start(*e.trajectory, *e.cell, kLeft));
-  e.bench.arm.release();
+  e.bench.command.release();
   EXPECT_EQ(e.bench.tick().phase, Phase::idle);
 }
 

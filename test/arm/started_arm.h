@@ -12,7 +12,7 @@ struct Example {
         bench(cell, kLeft, *trajectory, seed) {}
 
   void start_now(Duration from = {}) {
-    bench.arm.start(trajectory, bench.now, from, trajectory->duration());
+    bench.command.start(trajectory, bench.now, from, trajectory->duration());
   }
   // Returns how far the arm joints are from the path at `progress`.
   double off_path(const ArmFeedback& feedback, Duration progress) const {

@@ -18,17 +18,29 @@ class ToldArm final : public ArmController {
   explicit ToldArm(JointId joint) : joints_{joint} { says.measured = Eigen::VectorXd::Zero(1); }
 
   const std::vector<JointId>& joints() const override { return joints_; }
-  void start(TrajectoryPtr, TimePoint, Duration, Duration) override {}
-  void grant(Duration authority) override { granted = authority; }
-  void brake() override { ++brakes; }
-  void release() override {}
-  const ArmFeedback& tick(TimePoint) override { return says; }
+  void send(const ArmCommand& command) override {
+    says.acknowledged = command.number;
+    if (const auto* follow = std::get_if<ArmCommand::Follow>(&command.what)) {
+      granted = follow->authority;
+    } else if (const auto* extend = std::get_if<ArmCommand::Extend>(&command.what)) {
+      granted = extend->authority;
+    } else if (std::holds_alternative<ArmCommand::Brake>(command.what)) {
+      ++brakes;
+    }
+  }
+  const ArmFeedback* poll(TimePoint now) override {
+    if (std::exchange(polled_at_, now) == now) return nullptr;
+    ++says.sequence;
+    says.controller_time = now.time_since_epoch();
+    return &says;
+  }
 
   ArmFeedback says;
   Duration granted{};
   int brakes = 0;
 
  private:
+  std::optional<TimePoint> polled_at_;
   std::vector<JointId> joints_;
 };
 
@@ -43,6 +55,7 @@ class ScriptedArms : public ::testing::Test {
       controllers.push_back(std::move(told));
     }
     motions = std::make_unique<Motions>(cell, std::move(controllers), cell->home());
+    motions->tick_arms(TimePoint{});  // the links are up
   }
   void dispatch(const std::vector<ArmId>& of) {
     const std::vector<double> begins(of.size(), -1.0), ends(of.size(), 1.0);

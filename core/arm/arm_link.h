@@ -1,0 +1,114 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/arm/arm_controller.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// The caller's end of the connection to one controller. Numbers the commands, repeats those that
+// are not acknowledged, and decides what a report proves. Pure: time and reports are arguments.
+//
+//   state      | event                                               | next state
+//   connecting | first report                                        | up
+//   up         | last report older than half of feedback_timeout     | stale
+//   stale      | report                                              | up
+//   up, stale  | last report older than feedback_timeout, or         |
+//              | the connection is down or new                       | lost
+//   lost       | report of a connection that is up                   | up
+//
+// The age of a report is counted from its measurement on the controller's clock: the fastest
+// report so far counts as undelayed.
+//
+// Commands that would let the arm move wait until the link is up. A brake is sent in any state. It
+// drops the commands that wait: a motion that was never sent counts as stopped at its start. After
+// a new connection, commands that the controller has not acknowledged are lost.
+class ArmLink {
+ public:
+  enum class State { connecting, up, stale, lost };
+  // `assumed`: positions of the controller's joints before the first report.
+  ArmLink(const ControllerDescription& promises, Eigen::VectorXd assumed);
+
+  void command(ArmCommand::Follow follow);
+  void command(ArmCommand::Extend extend);
+  void command(ArmCommand::Brake brake);
+  void command(ArmCommand::Release release);
+  void command(ArmCommand::SetSpeed speed);
+  // Sends what is due, polls the controller and updates the state. Call once per control cycle.
+  void exchange(ArmController& controller, TimePoint now);
+  // Sends the commands that may be sent now.
+  void flush(ArmController& controller);
+
+  [[nodiscard]] State state() const { return state_; }
+  // Why the link is not up; empty if it is.
+  [[nodiscard]] const std::string& detail() const { return detail_; }
+  // Age of the last report at the last exchange(); Duration::max() before the first.
+  [[nodiscard]] Duration age() const { return age_; }
+  // Returns the last report, seen through the commands since: a motion that the controller has not
+  // acknowledged is `waiting`, a motion that it has lost or rejected is a `fault`.
+  [[nodiscard]] const ArmFeedback& feedback() const { return seen_; }
+  // Returns true if a report arrived in the last exchange().
+  [[nodiscard]] bool has_news() const { return has_news_; }
+  // Reports that were ignored because they were malformed or older than an earlier one.
+  [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
+
+ private:
+  using What = decltype(ArmCommand::what);
+
+  void hear(const ArmFeedback& report, TimePoint now);
+  void see(const ArmConnection& connection, TimePoint now);
+  void connected_anew();
+  void send(ArmController& controller, What what);
+  void interpret();
+  void synchronize(const ArmFeedback& first);
+
+  Duration feedback_timeout_;
+  State state_ = State::connecting;
+  std::string detail_ = "waiting for the controller's first report";
+  std::uint64_t connection_ = 0;
+  bool is_new_ = true;  // no report of this connection has arrived yet
+
+  std::deque<What> waiting_;     // not sent
+  std::deque<ArmCommand> sent_;  // not acknowledged
+  TimePoint now_{};
+  TimePoint sent_at_{};       // last time that anything was sent
+  CommandNumber number_ = 0;  // of the last command sent
+  // The present motion: the follow command that was given last, until the release.
+  struct Motion {
+    Duration from;
+    Duration authority;        // as commanded last
+    CommandNumber number = 0;  // 0: not sent
+    bool is_dropped = false;   // braked before it was sent
+    bool is_lost = false;      // the connection broke before it was acknowledged
+  };
+  std::optional<Motion> motion_;
+  CommandNumber released_ = 0;  // number of the last release
+
+  ArmFeedback heard_;  // the last report
+  ArmFeedback seen_;
+  std::optional<Duration> fastest_;  // smallest arrival time minus controller_time
+  TimePoint measured_at_{};
+  Duration age_ = Duration::max();
+  bool has_news_ = false;
+  std::uint64_t ignored_ = 0;
+};
+
+[[nodiscard]] constexpr const char* to_string(ArmLink::State state) {
+  switch (state) {
+    case ArmLink::State::connecting:
+      return "connecting";
+    case ArmLink::State::up:
+      return "up";
+    case ArmLink::State::stale:
+      return "stale";
+    case ArmLink::State::lost:
+      return "lost";
+  }
+  return nullptr;
+}
+
+}  // namespace armloom

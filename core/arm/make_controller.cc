@@ -1,0 +1,59 @@
+#include "core/arm/make_controller.h"
+
+#include <utility>
+#include <vector>
+
+#include "core/arm/faulty_arm.h"
+#include "core/arm/simulated_arm.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+std::string listed(const ControllerTypes& types) {
+  std::string names;
+  for (const auto& [name, make] : types) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+Eigen::VectorXd home_of(const Cell& cell, const Arm& arm) {
+  std::vector<JointId> joints = arm.joints;
+  joints.insert(joints.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
+  return joints_of(cell.home(), joints);
+}
+
+}  // namespace
+
+ControllerTypes simulated_controllers() {
+  const auto make = [](const CellPtr& cell, ArmId arm, Eigen::VectorXd q,
+                       std::uint64_t seed) -> Result<MadeController> {
+    auto made =
+        std::make_unique<FaultyArm>(std::make_unique<SimulatedArm>(cell, arm, std::move(q), seed));
+    FaultyArm* faults = made.get();
+    return MadeController{std::move(made), faults};
+  };
+  return {{"sim", make}};
+}
+
+Result<std::vector<MadeController>> make_controllers(const CellPtr& cell,
+                                                     const ControllerTypes& types,
+                                                     std::uint64_t seed) {
+  std::vector<MadeController> made;
+  for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
+    const Arm& arm = cell->arms[a];
+    const std::string& type = cell->robots[arm.robot.index()].controller.type;
+    const auto make = types.find(type);
+    if (make == types.end()) {
+      return failure(
+          Problem{ProblemKind::invalid, "unknown-controller",
+                  "/robots/" + std::to_string(arm.robot.index()) + "/controller/type",
+                  "unknown controller type \"" + type + "\"; known here: " + listed(types), type});
+    }
+    auto controller = make->second(cell, ArmId{a}, home_of(*cell, arm), seed + a);
+    if (!controller) return failure(std::move(controller.error()));
+    made.push_back(std::move(*controller));
+  }
+  return made;
+}
+
+}  // namespace armloom
