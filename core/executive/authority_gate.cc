@@ -128,6 +128,7 @@ void AuthorityGate::see_positions() {
       guard_.rests(arm, feedback.measured_progress, motions_.measured());
     } else {
       guard_.moves(arm, feedback.measured_progress);
+      guard_.acknowledges(arm, feedback.authority);
     }
   }
 }

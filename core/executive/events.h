@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/arm/arm_link.h"
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/guard_refusal.h"
@@ -152,6 +153,8 @@ struct ArmView {
   std::vector<double> home;
   // Measured distance from its path, of the joint with the largest distance (rad or m).
   double deviation_rad = 0.0;
+  ArmLink::State link = ArmLink::State::connecting;  // to its controller
+  std::string link_detail;                           // why the link is not up; empty if it is
 };
 
 struct QueueView {

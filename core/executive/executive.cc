@@ -76,9 +76,9 @@ void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
   impl_->note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause}});
   impl_->stop(arms, cause);
 }
-void Executive::resume(const std::vector<ArmId>& arms) {
+std::vector<ArmId> Executive::resume(const std::vector<ArmId>& arms) {
   impl_->note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
-  impl_->resume(arms);
+  return impl_->resume(arms);
 }
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
   impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
@@ -129,8 +129,8 @@ void stop_all(Executive& executive, const std::string& cause) {
   executive.stop(all_arms(executive.scene().scene()->cell()), cause);
 }
 
-void resume_all(Executive& executive) {
-  executive.resume(all_arms(executive.scene().scene()->cell()));
+std::vector<ArmId> resume_all(Executive& executive) {
+  return executive.resume(all_arms(executive.scene().scene()->cell()));
 }
 
 }  // namespace armloom

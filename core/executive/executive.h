@@ -220,7 +220,8 @@ class Executive {
 
   void alert(Alert alert);
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
-  void resume(const std::vector<ArmId>& arms);
+  // Returns the arms that stay stopped, because the link to their controller is not up.
+  std::vector<ArmId> resume(const std::vector<ArmId>& arms);
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 
@@ -265,6 +266,6 @@ class Executive {
 [[nodiscard]] Executive::BatchAnswers submit_batch(Executive& executive,
                                                    std::vector<JobRequest> requests, bool atomic);
 void stop_all(Executive& executive, const std::string& cause);
-void resume_all(Executive& executive);
+std::vector<ArmId> resume_all(Executive& executive);  // as Executive::resume()
 
 }  // namespace armloom

@@ -6,9 +6,13 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
+
+// Cause of the stop of an arm whose controller has not connected yet.
+const std::string kConnects = "waiting for its controller: ";
 
 // Those of the pair, and those that stop.
 MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
@@ -50,7 +54,8 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                   execution_.starts(), scene_},
                  observer),
       intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
-      watch_(scene_.scene()) {
+      watch_(scene_.scene()),
+      links_(cell_->arms.size()) {
   follow_policy();
 }
 
@@ -194,12 +199,16 @@ void Executive::Impl::tick(TimePoint now) {
   if (now >= clock_.shows_check_at) show_check();
   forget_rolled_back();
   count_.motion(motions);
+  watch_links();
   if (watch_.is_due(now)) watch();
   publisher_.tell_queue(now);
   publisher_.tell_scene(now);
   publisher_.tell_arms(now);
   publisher_.tell_tick(now);
-  const auto is_moving = [&](ArmId arm) { return motions.moving(arm); };
+  // A lost arm is not waited for: it comes to rest by itself.
+  const auto is_moving = [&](ArmId arm) {
+    return motions.moving(arm) && motions.link(arm).state() != ArmLink::State::lost;
+  };
   if (wind_down_ && wind_down_->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
     step(Interrupt{wind_down_->keeps_waiting});
     std::exchange(wind_down_->done, nullptr)();
@@ -229,6 +238,47 @@ void Executive::Impl::watch() {
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
 
+// An arm whose link is lost comes to rest by itself, within its authority. It stays stopped until
+// it is resumed, also when the link is back.
+void Executive::Impl::watch_links() {
+  for (const LinkWatch::Change& change : links_.look(execution_.motions())) {
+    using Kind = LinkWatch::Change::Kind;
+    const std::string& arm = cell_->arm(change.arm).name;
+    switch (change.kind) {
+      case Kind::waits:
+        stop({change.arm}, kConnects + change.detail, Alert::Level::info);
+        break;
+      case Kind::lost:
+        stop({change.arm}, "link lost: " + change.detail);
+        break;
+      case Kind::connected: {
+        locate(change.arm);
+        const auto& cause = scheduler_.stop_cause(change.arm);
+        if (cause && cause->starts_with(kConnects)) resume({change.arm});
+        break;
+      }
+      case Kind::back:
+        publisher_.tell(Alert{Alert::Level::info, "arm " + arm +
+                                                      ": its controller reports again; the arm "
+                                                      "stays stopped until it is resumed"},
+                        clock_.now);
+        break;
+    }
+  }
+}
+
+// Tells the scheduler where an arm at rest really is, if that is not where it came to rest.
+void Executive::Impl::locate(ArmId arm) {
+  const ArmLink& link = execution_.motions().link(arm);
+  if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
+  std::vector<JointId> joints = cell_->arm(arm).joints;
+  joints.insert(joints.end(), cell_->arm(arm).gripper_joints.begin(),
+                cell_->arm(arm).gripper_joints.end());
+  const Eigen::VectorXd off = link.feedback().measured - joints_of(scheduler_.rest(), joints);
+  if (off.cwiseAbs().maxCoeff() <= cell_->checking.tracking_error_rad) return;
+  step(Located{arm, link.feedback().measured});
+}
+
 // ---- What is asked of all arms ----
 
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
@@ -243,9 +293,26 @@ void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& ca
   step(Stop{arms, cause});
 }
 
-void Executive::Impl::resume(const std::vector<ArmId>& arms) {
+std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
+  const auto is_absent = [this](ArmId arm) {
+    const ArmLink::State link = execution_.motions().link(arm).state();
+    return link == ArmLink::State::connecting || link == ArmLink::State::lost;
+  };
+  const auto absent =
+      std::stable_partition(arms.begin(), arms.end(), [&](ArmId arm) { return !is_absent(arm); });
+  const std::vector<ArmId> not_resumed(absent, arms.end());
+  arms.erase(absent, arms.end());
+  if (!not_resumed.empty()) {
+    publisher_.tell(Alert{Alert::Level::warning,
+                          "not resumed: " + names_of(*cell_, not_resumed) +
+                              " (no link to the controller): resume again when the link is up"},
+                    clock_.now);
+  }
+  if (arms.empty()) return not_resumed;
   publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
+  for (const ArmId arm : arms) locate(arm);
   step(Resume{arms});
+  return not_resumed;
 }
 
 void Executive::Impl::end(const std::string& cause, bool keeps_waiting,

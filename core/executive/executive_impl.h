@@ -13,6 +13,7 @@
 #include "core/executive/hold_to_run.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
+#include "core/executive/link_watch.h"
 #include "core/executive/live_scene.h"
 #include "core/executive/open_questions.h"
 #include "core/executive/publishing.h"
@@ -58,7 +59,7 @@ class Executive::Impl {
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
   void stop(const std::vector<ArmId>& arms, const std::string& cause,
             Alert::Level level = Alert::Level::warning);
-  void resume(const std::vector<ArmId>& arms);
+  std::vector<ArmId> resume(std::vector<ArmId> arms);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] TimePoint settled_until() const;
   void follow_policy();
@@ -102,6 +103,8 @@ class Executive::Impl {
   void refused(JobId job, const GuardRefusal& refusal);
   void forget_rolled_back();
   void watch();
+  void watch_links();
+  void locate(ArmId arm);
   void scene_has_changed(ClearanceQuery& query);
 
   // Set when the shutdown has begun.
@@ -114,6 +117,7 @@ class Executive::Impl {
   std::vector<JobId> rolled_back_;  // not ended, or not forgotten yet
   JobIntake intake_;
   StateWatch watch_;
+  LinkWatch links_;
   std::optional<WindDown> wind_down_;
 };
 

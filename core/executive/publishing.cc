@@ -70,7 +70,7 @@ void Publisher::tell_arms(TimePoint now) {
   for (ArmId arm : all_arms(shown_.cell)) {
     const ArmStatus& status = arms_[arm.index()];
     ArmStatus& told = told_arms_[arm.index()];
-    if (status.state == told.state && status.job == told.job) continue;
+    if (status.state == told.state && status.job == told.job && status.link == told.link) continue;
     told = status;
     tell(view_of_arm(arm, status), now);
   }
@@ -226,7 +226,9 @@ ArmState Publisher::state_of(ArmId arm) const {
 ArmStatus Publisher::status_of(ArmId arm) const {
   ArmStatus status{.state = state_of(arm),
                    .stopped = shown_.scheduler.stopped(arm),
-                   .deviation_rad = shown_.motions.deviation(arm)};
+                   .deviation_rad = shown_.motions.deviation(arm),
+                   .link = shown_.motions.link(arm).state(),
+                   .link_detail = shown_.motions.link(arm).detail()};
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
     const Job& job = *shown_.scheduler.find(*status.job);

@@ -45,7 +45,9 @@ ArmView view_of(const ArmStatus& status, ArmId id, const Cell& cell, const Confi
                .job = std::move(job_key),
                .progress = status.progress,
                .home = {arm.home.begin(), arm.home.end()},
-               .deviation_rad = status.deviation_rad};
+               .deviation_rad = status.deviation_rad,
+               .link = status.link,
+               .link_detail = status.link_detail};
   for (JointId joint : arm.joints) {
     view.joints.push_back(cell.joint(joint).name);
     view.q.push_back(q[static_cast<Eigen::Index>(joint.index())]);

@@ -22,6 +22,8 @@ struct ArmStatus {
   std::optional<JobId> job = {};  // in motion or paused
   double progress = 0.0;          // of this job
   double deviation_rad = 0.0;     // ArmView
+  ArmLink::State link = ArmLink::State::up;
+  std::string link_detail = {};
 };
 
 // Everything that clients see, at one instant. Copies share the jobs and the scene.

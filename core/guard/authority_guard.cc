@@ -119,6 +119,13 @@ void AuthorityGuard::moves(ArmId arm, Duration measured) {
   position.authority = std::max(position.authority, position.measured);
 }
 
+void AuthorityGuard::acknowledges(ArmId arm, Duration authority) {
+  ArmPosition& position = positions_[arm.index()];
+  if (!position.motion || position.at_rest) return;
+  position.authority =
+      std::max(position.authority, std::min(authority, position.motion->duration()));
+}
+
 void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& measured) {
   ArmPosition& position = positions_[arm.index()];
   if (position.motion) {

@@ -48,6 +48,9 @@ class AuthorityGuard {
 
   // Reports a moving arm's progress, which never decreases.
   void moves(ArmId arm, Duration measured);
+  // Reports the authority that a moving arm's controller acknowledges. The larger of granted and
+  // acknowledged authority counts: a controller may have to raise it to where its brake ends.
+  void acknowledges(ArmId arm, Duration authority);
   // Reports a resting arm: its progress, and all joints of the cell.
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 

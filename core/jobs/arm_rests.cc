@@ -60,6 +60,15 @@ void ArmRests::come_to_rest(const Cell& cell, const TrajectoryPtr& motion,
   }
 }
 
+void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position) {
+  std::vector<JointId> joints = cell.arm(arm).joints;
+  joints.insert(joints.end(), cell.arm(arm).gripper_joints.begin(),
+                cell.arm(arm).gripper_joints.end());
+  set_joints(rest_, joints, position);
+  places_at_[arm.index()] = places_.of(arm, part_of(cell.arm(arm), rest_));
+  came_by_[arm.index()] = nullptr;
+}
+
 void ArmRests::rest_at_goal(const WaitingLeg& leg) {
   for (std::size_t i = 0; i < leg.arms.size(); ++i) places_at_[leg.arms[i].index()] = leg.to[i];
 }

@@ -27,6 +27,8 @@ class ArmRests {
 
   // Stores that the motion's arms rest at `position` (of the trajectory's joints, in its order).
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
+  // Stores that the arm was found at `position` (Located).
+  void locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position);
   // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);

@@ -99,6 +99,14 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
+// An arm without authority was found at rest at `position`: it was moved while it was stopped, or
+// its controller has just connected. Ignored if the arm's job is in motion. A job that rests on its
+// path and is no longer there is replanned (MoveToStart::plan, or a goal) or fails with
+// Reason::start_mismatch.
+struct Located {
+  ArmId arm;
+  Eigen::VectorXd position;  // of Arm::joints, then Arm::gripper_joints
+};
 // The planning scene changed. All waiting jobs are checked again. Admitted motions are checked
 // again if they move one of `arms` (arms_in_question).
 struct SceneChanged {
@@ -118,7 +126,7 @@ struct Interrupt {
 struct Wake {};
 
 using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                           Resume, SceneChanged, ChangePolicy, Interrupt, Wake>;
+                           Resume, Located, SceneChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

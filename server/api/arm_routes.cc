@@ -59,31 +59,51 @@ bool is_held_by_store(const Call& call) {
 
 void resume_arm(Call call) {
   if (is_held_by_store(call)) return;
-  with_arm(call, [](Executive& executive, const Arms& arms) { executive.resume(arms); });
-}
-
-template <class Change>
-void with_all(Call& call, bool stopped, Change change) {
+  const auto arm = named_arm(call);
+  if (!arm) return;
   ask_urgently(
       call.parts,
-      [stopped, change](Executive& executive) {
-        change(executive);
-        return Stopped{stopped};
+      [arm = *arm](Executive& executive) -> Result<ArmView> {
+        const bool is_resumed = executive.resume({arm}).empty();
+        ArmView view = executive.arms()[arm.index()];
+        if (is_resumed) return view;
+        return failure(Problem{ProblemKind::conflict, "link-lost", "",
+                               "arm " + view.name + " stays stopped: " + view.link_detail +
+                                   ". Resume it when GET /arms/" + view.name + " shows link \"up\"",
+                               view.name});
+      },
+      [respond = call.respond](const Result<ArmView>& view) {
+        respond(view ? answer(202, arm_format(), *view) : problem_response(view.error()));
+      });
+}
+
+void stop_all(Call call) {
+  const auto asked = std::chrono::steady_clock::now();
+  ask_urgently(
+      call.parts,
+      [&parts = call.parts, asked](Executive& executive) {
+        stop_all(executive, "operator");
+        parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
+        return Stopped{.stopped = true};
       },
       [respond = call.respond](const Stopped& now) {
         respond(answer(202, stopped_format(), now));
       });
 }
-void stop_all(Call call) {
-  const auto asked = std::chrono::steady_clock::now();
-  with_all(call, true, [&parts = call.parts, asked](Executive& executive) {
-    stop_all(executive, "operator");
-    parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
-  });
-}
 void resume_all(Call call) {
   if (is_held_by_store(call)) return;
-  with_all(call, false, [](Executive& executive) { resume_all(executive); });
+  ask_urgently(
+      call.parts,
+      [](Executive& executive) {
+        const std::vector<ArmId> absent = resume_all(executive);
+        Stopped now{.stopped = absent.size() == executive.arms().size()};
+        for (const ArmId arm : absent)
+          now.not_resumed.push_back(executive.arms()[arm.index()].name);
+        return now;
+      },
+      [respond = call.respond](const Stopped& now) {
+        respond(answer(202, stopped_format(), now));
+      });
 }
 
 Route command(const char* path, const char* id, const char* summary) {
@@ -109,7 +129,7 @@ std::vector<Route> arm_routes() {
   resume_one.outcomes = {outcome(
       202, "The arm is resumed; its job continues as soon as its path is certified collision-free",
       arm_format())};
-  resume_one.refuses = {404};
+  resume_one.refuses = {404, 409};
   resume_one.as_text = arm_text;
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");

@@ -28,6 +28,12 @@ FormatPtr<ArmView> arm_format() {
             output_only("home", &ArmView::home, number_list()),
             output_only("deviation_rad", &ArmView::deviation_rad, number({0.0}),
                         "Largest measured deviation of a joint from the path"),
+            output_only("link", &ArmView::link, choice<ArmLink::State>(),
+                        "Link to the arm's controller. connecting: no report yet. stale: reports "
+                        "are late, and the arm gets no more authority. lost: the arm is stopped "
+                        "until it is resumed"),
+            output_only("link_detail", &ArmView::link_detail, text_or_null(),
+                        "Why the link is not up; null if it is"),
         }));
   }();
   return format;
@@ -44,7 +50,11 @@ FormatPtr<std::vector<ArmView>> arm_list_format() {
 
 FormatPtr<Stopped> stopped_format() {
   static const auto format =
-      named("Stopped", "", object<Stopped>({output_only("stopped", &Stopped::stopped, flag())}));
+      named("Stopped", "",
+            object<Stopped>({output_only("stopped", &Stopped::stopped, flag()),
+                             output_only("not_resumed", &Stopped::not_resumed, list(text()),
+                                         "Arms that stay stopped, because the link to their "
+                                         "controller is not up")}));
   return format;
 }
 

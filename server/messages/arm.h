@@ -12,7 +12,8 @@ namespace armloom {
 
 // Answer to POST /stop and /resume.
 struct Stopped {
-  bool stopped;
+  bool stopped;  // every arm
+  std::vector<std::string> not_resumed = {};
 };
 [[nodiscard]] FormatPtr<Stopped> stopped_format();
 

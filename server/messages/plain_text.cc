@@ -349,7 +349,10 @@ std::string arm_text(const Schema& arm, double now_s) {
 std::string stopped_text(const Schema& stopped, double) {
   return flag_at(stopped, "stopped")
              ? "all arms brake on their paths and stay stopped until resumed\n"
-             : "all arms are resumed\n";
+         : list_at(stopped, "not_resumed").empty()
+             ? "all arms are resumed\n"
+             : "not resumed, because there is no link to the controller: " +
+                   joined(list_at(stopped, "not_resumed"), ", ") + "\n";
 }
 
 std::string problem_text(const Schema& problem) {

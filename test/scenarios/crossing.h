@@ -92,10 +92,12 @@ struct Log final : Observer {
 // The crossing cell on simulated time.
 struct Crossing {
   explicit Crossing(CellDescription description = crossing_description(),
-                    const std::string& policy = "timed_discrete") {
+                    const std::string& policy = "timed_discrete",
+                    ControllerTypes controllers = {}) {
     auto built = build_cell(description);
     if (!built) throw std::runtime_error(built.error().front().detail);
-    auto created = Simulation::create(*built, ExecutiveOptions{.policy = policy}, log);
+    ExecutiveOptions options{.policy = policy, .controllers = std::move(controllers)};
+    auto created = Simulation::create(*built, std::move(options), log);
     if (!created) throw std::runtime_error(created.error().front().detail);
     simulation = std::move(*created);
     simulation->tick();

@@ -870,6 +870,13 @@ export interface components {
             home: number[];
             /** @description Largest measured deviation of a joint from the path */
             deviation_rad: number;
+            /**
+             * @description Link to the arm's controller. connecting: no report yet. stale: reports are late, and the arm gets no more authority. lost: the arm is stopped until it is resumed
+             * @enum {string}
+             */
+            link: "connecting" | "up" | "stale" | "lost";
+            /** @description Why the link is not up; null if it is */
+            link_detail: string | null;
         };
         QueueIds: {
             /** @description Present policy; absent in old recordings */

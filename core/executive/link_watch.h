@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/executive/motions.h"
+
+namespace armloom {
+
+// Finds changes of the arms' links.
+class LinkWatch {
+ public:
+  struct Change {
+    enum class Kind {
+      waits,      // the controller has not connected yet
+      connected,  // its first report has arrived
+      lost,
+      back,  // up again after it was lost
+    };
+    ArmId arm;
+    Kind kind;
+    std::string detail;  // waits, lost: why
+  };
+  explicit LinkWatch(std::size_t arms) : seen_(arms) {}
+
+  // Returns the changes since the last call. A link that becomes stale, or recovers from that, is
+  // no change.
+  [[nodiscard]] std::vector<Change> look(const Motions& motions);
+
+ private:
+  enum class Seen { nothing, waiting, up, lost };
+  std::vector<Seen> seen_;  // by ArmId
+};
+
+}  // namespace armloom
