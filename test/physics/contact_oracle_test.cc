@@ -1,0 +1,106 @@
+#include "server/physics/contact_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/audit/audited_cell.h"
+#include "core/model/kinematics.h"
+#include "test/physics/physics_cells.h"
+
+namespace armloom::test {
+namespace {
+
+TEST(ContactOracle, PosesAgreeWithOurKinematics) {
+  std::mt19937_64 random(1);
+  const auto names = config_cell_names();
+  ASSERT_GE(names.size(), 5u);
+  for (const std::string& name : names) {
+    const CellPtr cell = config_cell(name);
+    auto oracle = ContactOracle::create(cell);
+    ASSERT_TRUE(oracle.has_value());
+    LinkPoses X_WL;
+    double worst = 0.0;
+    for (int i = 0; i < 50; ++i) {
+      const Configuration q = random_configuration(*cell, random);
+      forward_kinematics(*cell, q, X_WL);
+      (void)oracle->contacts(q);
+      for (std::size_t l = 0; l < cell->links.size(); ++l) {
+        const Eigen::Matrix4d difference =
+            oracle->pose(cell->links[l].name).matrix() - X_WL[l].matrix();
+        worst = std::max(worst, difference.cwiseAbs().maxCoeff());
+      }
+    }
+    EXPECT_LT(worst, 1e-6) << name;
+  }
+}
+
+TEST(ContactOracle, HomesOfConfiguredCellsHaveNoContact) {
+  for (const std::string& name : config_cell_names()) {
+    const CellPtr cell = config_cell(name);
+    auto oracle = ContactOracle::create(cell);
+    ASSERT_TRUE(oracle.has_value());
+    for (const BodyContact& contact : oracle->contacts(cell->home())) {
+      ADD_FAILURE() << name << ": " << contact.body_a << " touches " << contact.body_b;
+    }
+  }
+}
+
+bool contains(const std::vector<BodyContact>& contacts, const std::string& a,
+              const std::string& b) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const BodyContact& contact) {
+    return (contact.body_a == a && contact.body_b == b) ||
+           (contact.body_a == b && contact.body_b == a);
+  });
+}
+
+// Distances below this, of either sign, are not compared: MuJoCo stores meshes as floats, and its
+// contact search has a tolerance.
+constexpr double kBand_m = 5e-4;
+
+TEST(ContactOracle, AgreesWithTheAuditOnRandomStates) {
+  std::mt19937_64 random(2);
+  // The meshes of the shuttles are concave. Their convex pieces are slightly larger, so MuJoCo may
+  // find contacts of bodies that are just apart.
+  for (const char* name : {"two_pandas", "dual_panda", "panda_and_ur5e", "two_shuttles"}) {
+    const bool is_concave = std::string(name) == "two_shuttles";
+    const CellPtr cell = config_cell(name);
+    auto oracle = ContactOracle::create(cell);
+    auto audited = AuditedCell::build(*cell);
+    ASSERT_TRUE(oracle.has_value() && audited.has_value());
+    std::size_t touching = 0;
+    std::size_t early = 0;
+    std::size_t apart = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Configuration q = random_configuration(*cell, random);
+      const auto deep = oracle->contacts(q);
+      const auto near = oracle->contacts(q, kBand_m);
+      audited->move_to(*cell, q);
+      std::size_t deep_in_pairs = 0;
+      for (AuditedPair& pair : audited->pairs()) {
+        const std::string& a = audited->solid(pair.a).name;
+        const std::string& b = audited->solid(pair.b).name;
+        const double distance_m = audited->look(pair, kBand_m);
+        const bool is_deep = contains(deep, a, b);
+        deep_in_pairs += is_deep ? 1 : 0;
+        (distance_m > 0.0 ? apart : touching) += 1;
+        if (distance_m > kBand_m && is_deep) {
+          ++early;
+          EXPECT_TRUE(is_concave) << name << " state " << i << ": only MuJoCo finds a contact of "
+                                  << a << " and " << b;
+        }
+        EXPECT_FALSE(distance_m <= 0.0 && !contains(near, a, b))
+            << name << " state " << i << ": only the audit finds a contact of " << a << " and "
+            << b;
+      }
+      EXPECT_EQ(deep_in_pairs, deep.size()) << "MuJoCo reports a pair that the audit allows";
+    }
+    std::printf("%s: %zu pairs touch, %zu do not, %zu touch only in MuJoCo\n", name, touching,
+                apart, early);
+    EXPECT_LT(early, touching / 20) << name;
+    EXPECT_GT(touching, 100u) << name;
+  }
+}
+
+}  // namespace
+}  // namespace armloom::test
