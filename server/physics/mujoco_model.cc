@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
 #include <stdexcept>
 #include <tuple>
@@ -27,7 +27,8 @@ class MemoryFile {
   explicit MemoryFile(const std::string& text) : files_(std::make_unique<mjVFS>()) {
     mj_defaultVFS(files_.get());
     mj_makeEmptyFileVFS(files_.get(), kName, static_cast<int>(text.size()));
-    std::memcpy(files_->filedata[mj_findFileVFS(files_.get(), kName)], text.data(), text.size());
+    std::copy(text.begin(), text.end(),
+              static_cast<char*>(files_->filedata[mj_findFileVFS(files_.get(), kName)]));
   }
   ~MemoryFile() { mj_deleteVFS(files_.get()); }
   MemoryFile(const MemoryFile&) = delete;
@@ -115,8 +116,9 @@ Eigen::Isometry3d MujocoModel::pose(std::string_view body) const {
   const std::string name = "B" + std::to_string(found - mjcf_.bodies.begin());
   const int id = mj_name2id(model_.get(), mjOBJ_BODY, name.c_str());
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.translation() = Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * id);
-  X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * id);
+  X.translation() = Eigen::Map<const Eigen::Vector3d>(data_->xpos + std::ptrdiff_t{3} * id);
+  X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
+      data_->xmat + std::ptrdiff_t{9} * id);
   return X;
 }
 

@@ -176,7 +176,7 @@ void Plant::switch_drives(ArmId arm, bool on) {
   }
 }
 
-double Plant::energy_J() const {
+double Plant::energy_j() const {
   mjModel& model = mujoco_->model();
   mjData& data = mujoco_->data();
   mj_fwdPosition(&model, &data);

@@ -70,7 +70,7 @@ class Plant {
 
   [[nodiscard]] const PlantState& state() const { return state_; }
   // Kinetic plus potential energy (J), up to a constant.
-  [[nodiscard]] double energy_J() const;
+  [[nodiscard]] double energy_j() const;
 
  private:
   Plant(CellPtr cell, const PlantOptions& options, std::unique_ptr<MujocoModel> real,

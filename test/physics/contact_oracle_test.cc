@@ -54,6 +54,21 @@ bool contains(const std::vector<BodyContact>& contacts, const std::string& a,
   });
 }
 
+TEST(ContactOracle, OmitsObjectsThatALinkMayTouch) {
+  Cell cell = *config_cell("two_pandas");
+  LinkPoses X_WL;
+  forward_kinematics(cell, cell.home(), X_WL);
+  const LinkId hand = *cell.find_link("left_panda_hand");
+  cell.objects.push_back({"ball", Sphere{0.03}, X_WL[hand.index()]});
+  auto touching = ContactOracle::create(std::make_shared<const Cell>(cell));
+  ASSERT_TRUE(touching.has_value());
+  EXPECT_TRUE(contains(touching->contacts(cell.home()), "left_panda_hand", "ball"));
+  cell.allowed.link_objects.insert({hand, "ball"});
+  auto allowed = ContactOracle::create(std::make_shared<const Cell>(cell));
+  ASSERT_TRUE(allowed.has_value());
+  EXPECT_FALSE(contains(allowed->contacts(cell.home()), "left_panda_hand", "ball"));
+}
+
 // Distances below this, of either sign, are not compared: MuJoCo stores meshes as floats, and its
 // contact search has a tolerance.
 constexpr double kBand_m = 5e-4;

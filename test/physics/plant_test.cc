@@ -89,6 +89,21 @@ TEST(Plant, PayloadUnknownToTheServoRaisesTheError) {
   EXPECT_LT(worst_known.maxCoeff(), 1e-3);
 }
 
+TEST(Plant, EveryConfiguredRobotHoldsItsHome) {
+  for (const std::string& name : config_cell_names()) {
+    Plant plant = plant_of(config_cell(name), {});
+    const Eigen::VectorXd home = plant.state().position;
+    double worst = 0.0;
+    for (int i = 0; i < 300; ++i) {
+      const PlantState& state = plant.step(kPeriod, home, Eigen::VectorXd::Zero(home.size()));
+      worst = std::max(worst, (state.position - home).cwiseAbs().maxCoeff());
+      EXPECT_TRUE(state.contacts.empty()) << name;
+    }
+    std::printf("%s: largest error at home %.3g rad\n", name.c_str(), worst);
+    EXPECT_LT(worst, 1e-3) << name;
+  }
+}
+
 TEST(Plant, HoldsStillForTenSeconds) {
   Plant plant = left_panda();
   const Eigen::VectorXd home = plant.state().position;
@@ -127,7 +142,7 @@ TEST(Plant, TorqueAtRestCarriesTheWeight) {
   for (const Link& link : cell->links) {
     inertias.push_back(inertia_of_shapes(link.shapes, kAssumedDensity_kg_m3));
   }
-  const auto potential_J = [&](const Configuration& q) {
+  const auto potential_j = [&](const Configuration& q) {
     LinkPoses X_WL;
     forward_kinematics(*cell, q, X_WL);
     double sum = 0.0;
@@ -143,7 +158,7 @@ TEST(Plant, TorqueAtRestCarriesTheWeight) {
     const auto joint = static_cast<Eigen::Index>(plant.joints()[r].index());
     above[joint] += 1e-4;
     below[joint] -= 1e-4;
-    const double expected = (potential_J(above) - potential_J(below)) / 2e-4;
+    const double expected = (potential_j(above) - potential_j(below)) / 2e-4;
     EXPECT_NEAR(plant.state().torque[static_cast<Eigen::Index>(r)], expected, 1e-3) << r;
   }
 }
@@ -157,9 +172,9 @@ TEST(Plant, WorkOfDrivesEqualsChangeOfEnergy) {
   to.head(7) << 0.9, -0.3, 0.4, -1.6, 0.5, 2.0, 0.0;
   const auto line = joint_line(*cell, plant.joints(), from, to);
   ASSERT_TRUE(line.has_value());
-  const double before_J = plant.energy_J();
-  double work_J = 0.0;
-  double lift_J = 0.0;
+  const double before_j = plant.energy_j();
+  double work_j = 0.0;
+  double lift_j = 0.0;
   JointState command;
   constexpr Duration kShort = 500us;  // one internal step
   for (Duration t = kShort; t <= (*line)->duration() * 3 / 5; t += kShort) {
@@ -167,12 +182,12 @@ TEST(Plant, WorkOfDrivesEqualsChangeOfEnergy) {
     const Eigen::VectorXd position = plant.state().position;
     const PlantState& state = plant.step(kShort, command.position, command.velocity);
     // The drive of the mimic finger is not in joints(). It hardly works, because it rests.
-    work_J += state.torque.dot(state.position - position);
-    lift_J = std::max(lift_J, std::abs(plant.energy_J() - before_J));
+    work_j += state.torque.dot(state.position - position);
+    lift_j = std::max(lift_j, std::abs(plant.energy_j() - before_j));
   }
-  std::printf("work %.4f J, change of energy %.4f J\n", work_J, plant.energy_J() - before_J);
-  EXPECT_GT(lift_J, 5.0);
-  EXPECT_NEAR(work_J, plant.energy_J() - before_J, 0.01 * lift_J);
+  std::printf("work %.4f J, change of energy %.4f J\n", work_j, plant.energy_j() - before_j);
+  EXPECT_GT(lift_j, 5.0);
+  EXPECT_NEAR(work_j, plant.energy_j() - before_j, 0.01 * lift_j);
 }
 
 TEST(Plant, ReportsContactOfTwoPandasDrivenIntoEachOther) {
@@ -229,12 +244,12 @@ TEST(Plant, BrakesStopAndHoldAnArmWithoutDrives) {
   ASSERT_GT(speed, 0.5);
   plant.switch_drives(ArmId{0}, false);
   int until_rest = 0;
-  double energy_J = plant.energy_J();
+  double energy_j = plant.energy_j();
   while (plant.state().velocity.cwiseAbs().maxCoeff() > 1e-3 && until_rest < 1000) {
     (void)plant.step(kPeriod, command.position, command.velocity);
     ++until_rest;
-    EXPECT_LT(plant.energy_J(), energy_J + 1e-3);
-    energy_J = plant.energy_J();
+    EXPECT_LT(plant.energy_j(), energy_j + 1e-3);
+    energy_j = plant.energy_j();
   }
   EXPECT_LT(until_rest, 200);
   const Eigen::VectorXd rest = plant.state().position;
