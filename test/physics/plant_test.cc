@@ -74,7 +74,8 @@ TEST(Plant, FollowsAFastTour) {
   Plant plant = left_panda();
   const Eigen::VectorXd worst = fast_tour(plant);
   print("no payload", worst);
-  EXPECT_LT(worst.maxCoeff(), 1e-3);  // the default of tracking_error_rad
+  // Without feedforward of the acceleration, 3.75 rad/s^2 would cost 0.375 mrad.
+  EXPECT_LT(worst.maxCoeff(), 2e-4);
 }
 
 TEST(Plant, PayloadUnknownToTheServoRaisesTheError) {
@@ -86,7 +87,7 @@ TEST(Plant, PayloadUnknownToTheServoRaisesTheError) {
   Plant known = left_panda(in_hand(3.0), true);
   const Eigen::VectorXd worst_known = fast_tour(known);
   print("3 kg, known", worst_known);
-  EXPECT_LT(worst_known.maxCoeff(), 1e-3);
+  EXPECT_LT(worst_known.maxCoeff(), 2e-4);
 }
 
 TEST(Plant, EveryConfiguredRobotHoldsItsHome) {
@@ -206,9 +207,11 @@ TEST(Plant, ReportsContactOfTwoPandasDrivenIntoEachOther) {
   std::vector<BodyContact> first;
   Configuration q = cell->home();
   double deepest_m = 0.0;
+  double torque_max = 0.0;
   for (Duration t = kPeriod; t <= (*line)->duration() + 1s; t += kPeriod) {
     (*line)->sample(t, command);
     const PlantState& state = plant.step(kPeriod, command.position, command.velocity);
+    torque_max = std::max(torque_max, state.torque.cwiseAbs().maxCoeff());
     for (const BodyContact& contact : state.contacts) {
       deepest_m = std::max(deepest_m, contact.depth_m);
     }
@@ -222,6 +225,7 @@ TEST(Plant, ReportsContactOfTwoPandasDrivenIntoEachOther) {
   // The bodies push each other back, at most with the drives' torque.
   std::printf("%s touches %s, deepest %.4f m\n", first.front().body_a.c_str(),
               first.front().body_b.c_str(), deepest_m);
+  EXPECT_EQ(torque_max, 87.0);  // the largest effort in the URDF
   EXPECT_LT(deepest_m, 0.02);
   EXPECT_GT((plant.state().position - command.position).norm(), 0.05);
 }
