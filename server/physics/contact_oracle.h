@@ -7,8 +7,10 @@
 
 namespace armloom {
 
-// Finds contacts of all robots and objects of a cell with MuJoCo. Shares only the model and the
-// convex pieces of meshes with core/collision and core/audit. Confined to one thread at a time.
+// Finds contacts of all robots and objects of a cell with MuJoCo. Shares the model with
+// core/collision and core/audit, and the convex pieces of meshes with core/collision. The pieces
+// fill some hollows of concave meshes, so two bodies there may be reported although they are
+// centimeters apart. Confined to one thread at a time.
 class ContactOracle {
  public:
   // Returns the problems of make_mjcf() or MujocoModel::compile().

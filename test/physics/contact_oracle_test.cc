@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <limits>
 
 #include "core/audit/audited_cell.h"
+#include "core/geometry/convex/convex_shape.h"
+#include "core/geometry/convex/exact_distance.h"
 #include "core/model/kinematics.h"
 #include "test/physics/physics_cells.h"
 
@@ -73,18 +76,34 @@ TEST(ContactOracle, OmitsObjectsThatALinkMayTouch) {
 // contact search has a tolerance.
 constexpr double kBand_m = 5e-4;
 
+// Returns the distance of the convex pieces of two links. MuJoCo knows only these, and those of a
+// concave mesh fill some of its hollows.
+double distance_of_pieces(const Cell& cell, const Configuration& q, const std::string& a,
+                          const std::string& b) {
+  LinkPoses X_WL;
+  forward_kinematics(cell, q, X_WL);
+  const LinkId link_a = cell.find_link(a).value();
+  const LinkId link_b = cell.find_link(b).value();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ConvexShape& x : make_convex_shapes(cell.link(link_a).shapes)) {
+    for (const ConvexShape& y : make_convex_shapes(cell.link(link_b).shapes)) {
+      smallest = std::min(smallest, exact_distance(x, X_WL[link_a.index()] * x.X_PS, y,
+                                                   X_WL[link_b.index()] * y.X_PS));
+    }
+  }
+  return smallest;
+}
+
 TEST(ContactOracle, AgreesWithTheAuditOnRandomStates) {
   std::mt19937_64 random(2);
-  // The meshes of the shuttles are concave. Their convex pieces are slightly larger, so MuJoCo may
-  // find contacts of bodies that are just apart.
   for (const char* name : {"two_pandas", "dual_panda", "panda_and_ur5e", "two_shuttles"}) {
-    const bool is_concave = std::string(name) == "two_shuttles";
     const CellPtr cell = config_cell(name);
     auto oracle = ContactOracle::create(cell);
     auto audited = AuditedCell::build(*cell);
     ASSERT_TRUE(oracle.has_value() && audited.has_value());
     std::size_t touching = 0;
     std::size_t early = 0;
+    double gap_m = 0.0;  // largest, of pairs that touch only in MuJoCo
     std::size_t apart = 0;
     for (int i = 0; i < 200; ++i) {
       const Configuration q = random_configuration(*cell, random);
@@ -101,8 +120,10 @@ TEST(ContactOracle, AgreesWithTheAuditOnRandomStates) {
         (distance_m > 0.0 ? apart : touching) += 1;
         if (distance_m > kBand_m && is_deep) {
           ++early;
-          EXPECT_TRUE(is_concave) << name << " state " << i << ": only MuJoCo finds a contact of "
-                                  << a << " and " << b;
+          gap_m = std::max(gap_m, audited->look(pair, 0.1));
+          EXPECT_LE(distance_of_pieces(*cell, q, a, b), kBand_m)
+              << name << " state " << i << ": only MuJoCo finds a contact of " << a << " and " << b
+              << ", which are " << distance_m << " m apart";
         }
         EXPECT_FALSE(distance_m <= 0.0 && !contains(near, a, b))
             << name << " state " << i << ": only the audit finds a contact of " << a << " and "
@@ -110,9 +131,8 @@ TEST(ContactOracle, AgreesWithTheAuditOnRandomStates) {
       }
       EXPECT_EQ(deep_in_pairs, deep.size()) << "MuJoCo reports a pair that the audit allows";
     }
-    std::printf("%s: %zu pairs touch, %zu do not, %zu touch only in MuJoCo\n", name, touching,
-                apart, early);
-    EXPECT_LT(early, touching / 20) << name;
+    std::printf("%s: %zu pairs touch, %zu do not, %zu touch only in MuJoCo (%.1f mm apart)\n", name,
+                touching, apart, early, 1e3 * gap_m);
     EXPECT_GT(touching, 100u) << name;
   }
 }
