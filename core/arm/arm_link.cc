@@ -63,7 +63,14 @@ void ArmLink::command(ArmCommand::Release release) {
   interpret();
 }
 
-void ArmLink::command(ArmCommand::SetSpeed speed) { waiting_.emplace_back(speed); }
+// Only the last of several that wait counts. It goes before a motion that waits.
+void ArmLink::command(ArmCommand::SetSpeed speed) {
+  speed_ = speed.share;
+  std::erase_if(waiting_, [](const What& what) {
+    return std::holds_alternative<ArmCommand::SetSpeed>(what);
+  });
+  waiting_.emplace_front(speed);
+}
 
 void ArmLink::flush(ArmController& controller) {
   if (state_ == State::up) {
@@ -129,6 +136,7 @@ void ArmLink::synchronize(const ArmFeedback& first) {
   released_ = 0;
   fastest_.reset();
   if (motion_ && motion_->number > number_) motion_->is_lost = true;
+  if (speed_) command(ArmCommand::SetSpeed{*speed_});  // the controller may have been restarted
 }
 
 void ArmLink::hear(const ArmFeedback& report, TimePoint now) {

@@ -26,7 +26,8 @@ namespace armloom {
 //
 // Commands that would let the arm move wait until the link is up. A brake is sent in any state. It
 // drops the commands that wait: a motion that was never sent counts as stopped at its start. After
-// a new connection, commands that the controller has not acknowledged are lost.
+// a new connection, commands that the controller has not acknowledged are lost; the speed override
+// is commanded again, before any motion.
 class ArmLink {
  public:
   enum class State { connecting, up, stale, lost };
@@ -72,6 +73,7 @@ class ArmLink {
   std::uint64_t connection_ = 0;
   bool is_new_ = true;  // no report of this connection has arrived yet
 
+  std::optional<double> speed_;  // the last SetSpeed: repeated on each new connection
   std::deque<What> waiting_;     // not sent
   std::deque<ArmCommand> sent_;  // not acknowledged
   TimePoint now_{};

@@ -51,9 +51,11 @@ void CommandedProgress::advance(Duration period, bool braking) {
   if (!braking) refresh_curve(progress_ + period);
   const bool bound = authority_ < trajectory_->duration();
   if (rate_ == 0.0 && progress_ == Duration{} && !braking) {
-    rate_ = bound ? std::sqrt(curve_.rate_squared(0.0)) : 1.0;  // the path itself starts at rest
+    // The path itself starts at rest.
+    rate_ = bound ? std::min(std::sqrt(curve_.rate_squared(0.0)), speed_) : speed_;
   }
-  if (rate_ == 1.0 && !braking && (!bound || progress_ + period <= curve_.free_until())) {
+  if (rate_ == 1.0 && speed_ == 1.0 && !braking &&
+      (!bound || progress_ + period <= curve_.free_until())) {
     progress_ = std::min(progress_ + period, end());  // whole nanoseconds keep the planned duration
   } else {
     const double period_s = to_seconds(period);
@@ -75,18 +77,24 @@ CommandedProgress::Step CommandedProgress::braked(Duration progress, double rate
   return {rate_after, 0.5 * (rate + rate_after) * period_s};
 }
 
-CommandedProgress::Step CommandedProgress::next_step(double period_s) {
-  Step fastest{rate_, rate_ * period_s};
-  if (rate_ < 1.0 && period_s > 0.0) {
-    const double change = law_.rise({progress_, rate_}, period_s);
-    const double rate_after = rate_ + change * period_s;
-    if (rate_after <= 1.0) {
-      fastest = {rate_after, 0.5 * (rate_ + rate_after) * period_s};
-    } else {
-      const double rising_s = (1.0 - rate_) / change;
-      fastest = {1.0, 0.5 * (rate_ + 1.0) * rising_s + (period_s - rising_s)};
-    }
+// Returns the step that brings the rate nearest to the speed override within the limits.
+CommandedProgress::Step CommandedProgress::toward_speed(double period_s) {
+  if (rate_ > speed_) {
+    const Step slower = braked(progress_, rate_, period_s);
+    if (slower.rate >= speed_) return slower;
+    const double mean = 0.5 * (rate_ + speed_);  // brakes less than it may
+    return {speed_, mean * period_s};
   }
+  if (rate_ == speed_ || period_s <= 0.0) return {rate_, rate_ * period_s};
+  const double change = law_.rise({progress_, rate_}, period_s);
+  const double rate_after = rate_ + change * period_s;
+  if (rate_after <= speed_) return {rate_after, 0.5 * (rate_ + rate_after) * period_s};
+  const double rising_s = (speed_ - rate_) / change;
+  return {speed_, 0.5 * (rate_ + speed_) * rising_s + speed_ * (period_s - rising_s)};
+}
+
+CommandedProgress::Step CommandedProgress::next_step(double period_s) {
+  const Step fastest = toward_speed(period_s);
   if (authority_ >= trajectory_->duration()) return fastest;
   return below_curve(fastest, period_s);
 }

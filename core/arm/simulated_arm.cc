@@ -150,7 +150,9 @@ std::string SimulatedArm::carry_out(const ArmCommand::Release&) {
 }
 
 std::string SimulatedArm::carry_out(const ArmCommand::SetSpeed& speed) {
-  return speed.share == 1.0 ? std::string() : "this controller has no speed override";
+  if (!(speed.share >= 0.0 && speed.share <= 1.0)) return "the speed override is not within 0..1";
+  motion_.set_speed(speed.share);
+  return {};
 }
 
 // ---- Each control cycle ----
@@ -205,7 +207,7 @@ bool SimulatedArm::stands() const {
   if (coasting_) return false;
   if (!under_way() || feedback_.phase == Phase::waiting) return true;
   return feedback_.phase == Phase::moving && motion_.rate() == 0.0 && !offset_.is_any &&
-         motion_.progress() >= motion_.end() &&
+         (motion_.progress() >= motion_.end() || motion_.speed() == 0.0) &&
          feedback_.measured_progress == feedback_.commanded_progress;
 }
 

@@ -13,15 +13,15 @@
 namespace armloom {
 
 // A simulated arm with a 1 kHz control cycle. A brake lowers the rate (0..1) of commanded progress
-// to zero, and a start or resume raises it to one, as fast as the joints' brake or acceleration
-// limits permit: |q'(s) s'' + q''(s) s'^2| <= limit. Measured progress follows with a first-order
-// lag (ControllerDescription::lag). Measured positions are the positions on the path at measured
-// progress, plus optional Gaussian noise. Deterministic: the same seed and calls give the same
-// feedback, bit for bit.
+// to zero, and a start or resume raises it to the speed override, as fast as the joints' brake or
+// acceleration limits permit: |q'(s) s'' + q''(s) s'^2| <= limit. Measured progress follows with a
+// first-order lag (ControllerDescription::lag). Measured positions are the positions on the path at
+// measured progress, plus optional Gaussian noise. Deterministic: the same seed and calls give the
+// same feedback, bit for bit.
 //
 // Behavior that the interface leaves open:
 // - A motion that begins at the start of its path, where the path itself is at rest, has rate one
-//   at once. Elsewhere the rate begins at zero.
+//   (or the speed override) at once. Elsewhere the rate begins at zero.
 // - Synchronous arms keep equal commanded progress, because all joints of the trajectory limit the
 //   rate.
 // - When the arm rests at its authority, the phase stays `moving`. More authority continues the

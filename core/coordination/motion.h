@@ -30,6 +30,8 @@ struct Motion {
     stays,     // was stopped; will be checked again before it continues
   };
   Stands stands = Stands::goes_on;
+  // Speed override, 0 to 1. Used only by TimedDiscrete, because only there times matter.
+  double share = 1.0;
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };

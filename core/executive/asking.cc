@@ -42,7 +42,7 @@ Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInqui
 // When it would be there as a job, from now; nothing: that is not known.
 std::optional<double> arrives_s(const PlanView& plan) {
   if (!plan.verdict || !plan.verdict->earliest_start_s) return std::nullopt;
-  return *plan.verdict->earliest_start_s + to_seconds(plan.motion.timed.trajectory->duration());
+  return *plan.verdict->earliest_start_s + to_seconds(plan.takes);
 }
 
 std::string why_another(const std::optional<double>& arrives, const PlanView& best) {
@@ -209,6 +209,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
     const std::vector<Eigen::VectorXd> points = answer->way.points;
     JobRequest job{.key = "", .name = "", .trajectory = answer->timed.request};
     PlanView view{.arm = arm, .others = {}, .motion = *std::move(answer)};
+    view.takes = scheduler_.time_for(*view.motion.timed.trajectory);
     view.length = view.motion.way.length();
     view.straight_line_length = (points.back() - points.front()).norm();
     check(std::move(job), [this, inquiry, view = std::move(view)](auto verdict) mutable {

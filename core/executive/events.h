@@ -155,11 +155,15 @@ struct ArmView {
   double deviation_rad = 0.0;
   ArmLink::State link = ArmLink::State::connecting;  // to its controller
   std::string link_detail;                           // why the link is not up; empty if it is
+  // Share of the planned speed, 0 to 1: of this arm; and at which it goes, with that of the cell.
+  double speed_override = 1.0;
+  double effective_speed_override = 1.0;
 };
 
 struct QueueView {
   std::string policy;
   bool stopped = false;                                          // every arm is stopped
+  double speed_override = 1.0;                                   // of the cell
   std::vector<std::string> queued, backlog, scheduled, running;  // keys
   bool operator==(const QueueView&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/executive/arm_faults.h"
@@ -32,6 +33,7 @@ class Execution {
   void carry_out(const Brake& brake) { gate_.brake(brake.job); }
   void carry_out(const Release& release) { gate_.release(release.job); }
   void brake_all() { motions_.brake_all(); }
+  void set_speed(std::vector<double> shares) { motions_.set_speed(std::move(shares)); }
   void forget(const Job& ended);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs. A

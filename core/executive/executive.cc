@@ -80,6 +80,11 @@ std::vector<ArmId> Executive::resume(const std::vector<ArmId>& arms) {
   impl_->note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
   return impl_->resume(arms);
 }
+void Executive::set_speed(std::optional<ArmId> arm, double share) {
+  const Cell& cell = *impl_->cell_;
+  impl_->note({ExecutiveInput::SpeedSet{arm ? cell.arm(*arm).name : std::string(), share}});
+  impl_->set_speed(arm, share);
+}
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
   impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));

@@ -19,6 +19,7 @@
 #include "core/executive/live_scene.h"
 #include "core/executive/plan_ahead.h"
 #include "core/executive/plan_task.h"
+#include "core/jobs/speed_override.h"
 #include "core/model/cell.h"
 
 namespace armloom {
@@ -222,6 +223,9 @@ class Executive {
   void stop(const std::vector<ArmId>& arms, const std::string& cause);
   // Returns the arms that stay stopped, because the link to their controller is not up.
   std::vector<ArmId> resume(const std::vector<ArmId>& arms);
+  // Sets the speed override of the arm, or of the cell: the largest share of the planned speed,
+  // from now on, also in motion (SpeedOverride). Precondition: SpeedOverride::is_valid(share).
+  void set_speed(std::optional<ArmId> arm, double share);
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 

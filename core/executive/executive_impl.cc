@@ -315,6 +315,14 @@ std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
   return not_resumed;
 }
 
+void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
+  step(SetSpeed{arm, share});
+  std::vector<double> shares;
+  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.speed().effective(each));
+  execution_.set_speed(std::move(shares));
+  publisher_.tell_arms(clock_.now);
+}
+
 void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
                           std::function<void()> done) {
   wind_down_ = {std::move(done), keeps_waiting};

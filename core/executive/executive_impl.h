@@ -60,6 +60,7 @@ class Executive::Impl {
   void stop(const std::vector<ArmId>& arms, const std::string& cause,
             Alert::Level level = Alert::Level::warning);
   std::vector<ArmId> resume(std::vector<ArmId> arms);
+  void set_speed(std::optional<ArmId> arm, double share);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] TimePoint settled_until() const;
   void follow_policy();

@@ -65,6 +65,10 @@ struct ExecutiveInput {
   struct Resumed {
     std::vector<std::string> arms;
   };
+  struct SpeedSet {
+    std::string arm;  // the cell if empty
+    double share;
+  };
   struct PolicyChanged {
     std::string policy;
   };
@@ -105,9 +109,9 @@ struct ExecutiveInput {
     JobId job{0};
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
-               Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
-               ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved, Alerted, Judged,
-               Certified, Planned, StartWritten>
+               Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
+               ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved,
+               Alerted, Judged, Certified, Planned, StartWritten>
       what;
 };
 

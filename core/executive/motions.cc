@@ -20,7 +20,7 @@ bool at_rest(Phase phase) {
 
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
-    : cell_(std::move(cell)), measured_(std::move(measured)) {
+    : cell_(std::move(cell)), shares_(controllers.size(), 1.0), measured_(std::move(measured)) {
   for (std::size_t a = 0; a < controllers.size(); ++a) {
     const Robot& robot = cell_->robots[cell_->arms[a].robot.index()];
     ArmLink link(robot.controller, joints_of(measured_, controllers[a]->joints()));
@@ -38,6 +38,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
     motion.ahead_max = kOutOfStep + from_seconds(stopping_reach_s(*cell_, *trajectory));
     motion.handed_on = std::min(dispatch.authority, dispatch.from_progress + motion.ahead_max);
   }
+  if (trajectory->arms().size() > 1) pass_on_speed(trajectory->arms());
   for (ArmId arm : trajectory->arms()) {
     // An arm that stands ahead of its siblings lets them catch up.
     const auto stands_at = motion.stands_at.find(arm);
@@ -62,6 +63,20 @@ void Motions::brake_all() {
   }
 }
 
+void Motions::set_speed(std::vector<double> shares) {
+  shares_ = std::move(shares);
+  for (std::uint32_t a = 0; a < arms_.size(); ++a) pass_on_speed({ArmId{a}});
+  for (const auto& [job, motion] : motions_) {
+    if (motion.trajectory->arms().size() > 1) pass_on_speed(motion.trajectory->arms());
+  }
+}
+
+void Motions::pass_on_speed(const std::vector<ArmId>& together) {
+  double share = 1.0;
+  for (ArmId arm : together) share = std::min(share, shares_[arm.index()]);
+  for (ArmId arm : together) command(arm, ArmCommand::SetSpeed{share});
+}
+
 void Motions::brake(JobId job) {
   Motion& motion = motions_.at(job);
   motion.braking = true;
@@ -71,7 +86,11 @@ void Motions::brake(JobId job) {
 void Motions::release(JobId job) {
   const auto it = motions_.find(job);
   if (it == motions_.end()) return;
-  for (ArmId arm : it->second.trajectory->arms()) command(arm, ArmCommand::Release{});
+  const std::vector<ArmId>& arms = it->second.trajectory->arms();
+  for (ArmId arm : arms) {
+    command(arm, ArmCommand::Release{});
+    if (arms.size() > 1) pass_on_speed({arm});
+  }
   motions_.erase(it);
 }
 

@@ -27,6 +27,8 @@ class Motions {
   void grant(const Grant& grant);
   void brake(JobId job);
   void brake_all();
+  // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
+  void set_speed(std::vector<double> shares);
   void release(JobId job);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
@@ -81,11 +83,13 @@ class Motions {
     to.link.command(std::move(what));
     to.link.flush(*to.controller);
   }
+  void pass_on_speed(const std::vector<ArmId>& together);
   void report(JobId job, Motion& motion);
   void keep_together(Motion& motion);
 
   CellPtr cell_;
   std::vector<LinkedArm> arms_;  // by ArmId
+  std::vector<double> shares_;   // by ArmId: speed override
   Configuration measured_;
   std::map<JobId, Motion> motions_;
   std::vector<MotionReport> reports_;

@@ -53,6 +53,7 @@ struct PlanView {
   std::string arm;
   std::vector<OtherArm> others;
   PlannedMotion motion;
+  Duration takes;               // the motion, at the present speed override
   double length;                // in joint space (rad, m), ...
   double straight_line_length;  // ... and of the straight line
   // The result of check() for this motion, or the problem that prevents a check (its start is not

@@ -70,7 +70,10 @@ void Publisher::tell_arms(TimePoint now) {
   for (ArmId arm : all_arms(shown_.cell)) {
     const ArmStatus& status = arms_[arm.index()];
     ArmStatus& told = told_arms_[arm.index()];
-    if (status.state == told.state && status.job == told.job && status.link == told.link) continue;
+    const bool is_same = status.state == told.state && status.job == told.job &&
+                         status.link == told.link && status.speed_override == told.speed_override &&
+                         status.effective_speed_override == told.effective_speed_override;
+    if (is_same) continue;
     told = status;
     tell(view_of_arm(arm, status), now);
   }
@@ -104,9 +107,11 @@ void Publisher::tell_queue(TimePoint now) {
 // stop.
 void Publisher::tell_stopped(TimePoint now) {
   const bool stopped = all_stopped();
-  if (std::exchange(told_queue_.stopped, stopped) != stopped) {
-    tell_queue(std::move(told_queue_), now);
-  }
+  const double speed = shown_.scheduler.speed().cell();
+  const bool is_news = told_queue_.stopped != stopped || told_queue_.speed_override != speed;
+  told_queue_.stopped = stopped;
+  told_queue_.speed_override = speed;
+  if (is_news) tell_queue(std::move(told_queue_), now);
 }
 
 // The lists of thousands are moved through the event, not copied once more.
@@ -137,6 +142,7 @@ std::vector<ArmAuthority> Publisher::authorities() const {
 
 JobView Publisher::view(JobId id) const {
   JobView view = view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs);
+  view.times.expires_at = shown_.scheduler.expiry(id);
   const JobLabel* label = shown_.jobs.label(id);
   if (label != nullptr && label->submitted_at) view.times.submitted_at = *label->submitted_at;
   if (const auto refusal = shown_.gate.refusal(id)) {
@@ -179,6 +185,7 @@ void Publisher::publish(TimePoint now) {
                    .time = now,
                    .policy = shown_.scheduler.policy().name(),
                    .stopped = all_stopped(),
+                   .speed_override = shown_.scheduler.speed().cell(),
                    .jobs = jobs_.share(),
                    .q = shown_.motions.measured(),
                    .arms = arms_},
@@ -200,6 +207,7 @@ const QueueView& Publisher::queue() {
   QueueView& view = lists_.view();
   view.policy = shown_.scheduler.policy().name();
   view.stopped = all_stopped();
+  view.speed_override = shown_.scheduler.speed().cell();
   return view;
 }
 
@@ -228,7 +236,9 @@ ArmStatus Publisher::status_of(ArmId arm) const {
                    .stopped = shown_.scheduler.stopped(arm),
                    .deviation_rad = shown_.motions.deviation(arm),
                    .link = shown_.motions.link(arm).state(),
-                   .link_detail = shown_.motions.link(arm).detail()};
+                   .link_detail = shown_.motions.link(arm).detail(),
+                   .speed_override = shown_.scheduler.speed().arm(arm),
+                   .effective_speed_override = shown_.scheduler.speed().effective(arm)};
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
     const Job& job = *shown_.scheduler.find(*status.job);

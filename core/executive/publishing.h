@@ -49,7 +49,7 @@ class Publisher {
   void tell_stops();
   void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
   // Publishes the queue lists if they have changed. Long lists are published less often, but a
-  // change of "all arms are stopped" always at once.
+  // change of "all arms are stopped" or of the speed override always at once.
   void queue_may_have_changed(TimePoint now);
   void tell_queue(TimePoint now);
   [[nodiscard]] bool is_behind() const { return queue_is_old_ || scene_is_old_; }

@@ -47,7 +47,9 @@ ArmView view_of(const ArmStatus& status, ArmId id, const Cell& cell, const Confi
                .home = {arm.home.begin(), arm.home.end()},
                .deviation_rad = status.deviation_rad,
                .link = status.link,
-               .link_detail = status.link_detail};
+               .link_detail = status.link_detail,
+               .speed_override = status.speed_override,
+               .effective_speed_override = status.effective_speed_override};
   for (JointId joint : arm.joints) {
     view.joints.push_back(cell.joint(joint).name);
     view.q.push_back(q[static_cast<Eigen::Index>(joint.index())]);
@@ -66,7 +68,8 @@ std::vector<ArmView> arms_of(const Status& status, const Cell& cell) {
 }
 
 QueueView queue_of(const Status& status) {
-  QueueView view{.policy = status.policy, .stopped = status.stopped};
+  QueueView view{
+      .policy = status.policy, .stopped = status.stopped, .speed_override = status.speed_override};
   status.jobs.each([&](const JobSheet::JobPtr& job) {
     if (const auto list = queue_list_of(job->state)) (view.*list).push_back(job->key);
   });
@@ -117,6 +120,7 @@ void StatusBoard::publish(const Now& now, const std::vector<KeyOfJob>& gone) {
   status_.time = now.time;
   status_.policy = now.policy;
   status_.stopped = now.stopped;
+  status_.speed_override = now.speed_override;
   status_.q = now.q;
   status_.arms = now.arms;
   for (const auto& [key, job] : gone) {

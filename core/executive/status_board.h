@@ -24,6 +24,8 @@ struct ArmStatus {
   double deviation_rad = 0.0;     // ArmView
   ArmLink::State link = ArmLink::State::up;
   std::string link_detail = {};
+  double speed_override = 1.0;            // ArmView
+  double effective_speed_override = 1.0;  // ArmView
 };
 
 // Everything that clients see, at one instant. Copies share the jobs and the scene.
@@ -31,8 +33,9 @@ struct Status {
   std::uint64_t seq = 0;  // of the last event that is certainly included; the next may be, too
   TimePoint time{};
   std::string policy;
-  bool stopped = false;  // every arm is stopped
-  JobSheet jobs;         // active and recently ended
+  bool stopped = false;         // every arm is stopped
+  double speed_override = 1.0;  // of the cell
+  JobSheet jobs;                // active and recently ended
   std::shared_ptr<const SceneView> scene;
   Configuration q;              // measured, all joints of the cell
   std::vector<ArmStatus> arms;  // by ArmId
@@ -65,6 +68,7 @@ class StatusBoard {
     TimePoint time;
     std::string_view policy;
     bool stopped;
+    double speed_override;
     const JobSheet& jobs;
     const Configuration& q;
     const std::vector<ArmStatus>& arms;

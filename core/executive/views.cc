@@ -152,7 +152,6 @@ std::optional<TimePoint> first_scheduled(const JobTimes& times) {
 JobTimesView times_of(const Job& job) {
   return {.submitted_at = job.times.submitted_at,
           .backlogged_at = job.times.backlogged_at,
-          .expires_at = expiry_of(job),
           .scheduled_at = first_scheduled(job.times),
           .started_at = job.times.started_at,
           .ended_at = job.ended_at()};

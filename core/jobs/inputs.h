@@ -112,6 +112,11 @@ struct Located {
 struct SceneChanged {
   std::vector<ArmId> arms;
 };
+// Sets the speed override of the arm, or of the cell. Precondition: SpeedOverride::is_valid(share).
+struct SetSpeed {
+  std::optional<ArmId> arm;
+  double share;
+};
 // Sets the policy (not null). Ignored while a motion is admitted, because its passing orders belong
 // to the policy that chose them.
 struct ChangePolicy {
@@ -126,7 +131,7 @@ struct Interrupt {
 struct Wake {};
 
 using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                           Resume, Located, SceneChanged, ChangePolicy, Interrupt, Wake>;
+                           Resume, Located, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -24,7 +24,7 @@ struct Judgement {
 };
 // A rest on the path: after a stop, or until other motions have passed.
 struct Pause {
-  // Since when it waits for an object or an arm that no job moves.
+  // Since when (motion clock) it waits for an object or an arm that no job moves.
   std::optional<TimePoint> in_vain_since = {};
 };
 // The next step of a job when its braking arms have come to rest.
@@ -84,6 +84,7 @@ using JobPhase = std::variant<Queued, Admitted, Moving, Braking, Held, Ended>;
 struct JobTimes {
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time
+  TimePoint backlog_clock{};               // the motion clock (SpeedOverride) then
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;         // it has moved, ...
   std::optional<TimePoint> motion_started_at;  // ... on its present path

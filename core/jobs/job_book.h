@@ -66,15 +66,21 @@ struct Approaches {
   [[nodiscard]] bool are_in_question() const { return feasibility == Feasibility::in_question; }
 };
 
+// Start of a job's age.
+struct AgesFrom {
+  TimePoint at;
+  TimePoint clock;  // the motion clock (SpeedOverride) then
+};
+
 // A job with the scheduler's own data.
 struct Record {
   Job job;
   WaitingLeg leg;
   JobId turn;  // rank among jobs: the job's own id, unless jobs were reordered
-  std::optional<TimePoint> overtaken_at = {};  // when another job first took this job's turn
+  std::optional<TimePoint> overtaken_at = {};  // motion clock when another job first took its turn
   Errand errand = {};
   // Its age: since it was first refused, or had its turn to move.
-  std::optional<TimePoint> ages_from = {};
+  std::optional<AgesFrom> ages_from = {};
   Duration farthest{};    // MotionReport::farthest at the last rest
   double off_path = 0.0;  // Motion::off_path at its last start
   Asking asking = {};

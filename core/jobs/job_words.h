@@ -58,16 +58,17 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard };
+  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard, speed };
   Kind kind;
   std::optional<JobId> job;  // job, predecessor, capacity
-  std::optional<ArmId> arm;  // arm, stop; job: the other arm that comes too close
+  // arm, stop; speed: if it is the arm's override; job: the other arm that comes too close
+  std::optional<ArmId> arm;
   // job, arm, object: the pair of links that comes too close; predecessor: the same, if this job
   // would end in the path of that job
   std::optional<Proximity> proximity;
-  Duration own_time{};            // with proximity: time in this job's trajectory
-  Duration other_time{};          // and in the other trajectory
-  std::string detail = {};        // stop: its cause; predecessor: why it goes first
+  Duration own_time{};      // with proximity: time in this job's trajectory
+  Duration other_time{};    // and in the other trajectory
+  std::string detail = {};  // stop: its cause; speed: the remedy; predecessor: why it goes first
   bool has_no_way_aside = false;  // arm: all retreats of that arm were tried
 
   bool operator==(const Wait&) const = default;
@@ -98,6 +99,8 @@ struct Wait {
       return "check";
     case Wait::Kind::guard:
       return "guard";
+    case Wait::Kind::speed:
+      return "speed";
   }
   return nullptr;
 }

@@ -27,13 +27,13 @@ Duration stood_for(const Job& job, TimePoint now) {
   return stood < kStandsFrom ? Duration{} : stood;
 }
 
-double pace_of(const Job& job, TimePoint now) {
+double pace_of(const Job& job, double planned, TimePoint now) {
   const auto* moving = job.in<Moving>();
-  if (moving == nullptr || moving->pause || is_standing(*moving, now)) return 1.0;
+  if (moving == nullptr || moving->pause || is_standing(*moving, now)) return planned;
   const Duration way = job.progress - moving->goes_from;
-  if (way < kPaceFrom) return 1.0;
+  if (way < kPaceFrom) return planned;
   const double pace = to_seconds(moving->moved_at - moving->goes_since) / to_seconds(way);
-  return pace < kHardlySlow ? 1.0 : pace;
+  return pace < kHardlySlow * planned ? planned : pace;
 }
 
 }  // namespace armloom

@@ -21,8 +21,8 @@ inline constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
 // Returns the time since stands_since(); zero if it is less than kStandsFrom.
 [[nodiscard]] Duration stood_for(const Job& job, TimePoint now);
 
-// Returns the cell time that the motion has taken per trajectory time since its last rest; 1 if it
-// goes about as planned, or if this is not known.
-[[nodiscard]] double pace_of(const Job& job, TimePoint now);
+// Returns the cell time that the motion has taken per trajectory time since its last rest or change
+// of speed override; `planned` (SpeedOverride::pace) if it goes about so, or if this is not known.
+[[nodiscard]] double pace_of(const Job& job, double planned, TimePoint now);
 
 }  // namespace armloom

@@ -6,6 +6,24 @@
 
 namespace armloom {
 
+std::optional<Wait> speed_wait(const State& state, const Job& job) {
+  const auto wait = [](std::optional<ArmId> arm, const std::string& whose) {
+    return Wait{.kind = Wait::Kind::speed,
+                .arm = arm,
+                .detail = "the speed override of " + whose + " is 0; raise it to continue"};
+  };
+  if (state.speed.cell() == 0.0) return wait(std::nullopt, "the cell");
+  for (ArmId arm : job.trajectory->arms()) {
+    if (state.speed.arm(arm) == 0.0) return wait(arm, "arm " + state.cell->arm(arm).name);
+  }
+  return std::nullopt;
+}
+
+std::optional<Wait> operator_wait(const State& state, const Job& job) {
+  auto stop = state.arms.stop_of(job);
+  return stop ? stop : speed_wait(state, job);
+}
+
 std::optional<Wait> held_where_it_stands(const State& state, const Record& record) {
   const Job& job = record.job;
   const auto* moving = job.in<Moving>();

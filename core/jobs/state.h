@@ -9,8 +9,10 @@
 #include "core/jobs/inputs.h"
 #include "core/jobs/job_book.h"
 #include "core/jobs/lanes.h"
+#include "core/jobs/speed_override.h"
 #include "core/model/cell.h"
 #include "core/precedence/precedence_graph.h"
+#include "core/precedence/prediction.h"
 
 namespace armloom {
 
@@ -34,6 +36,7 @@ struct State {
   std::shared_ptr<const Policy> policy;
   JobBook jobs;
   ArmRests arms;
+  SpeedOverride speed;
   Lanes lanes;
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
@@ -48,8 +51,20 @@ struct State {
         policy(std::move(chosen)),
         jobs(cell->arms.size(), first),
         arms(*cell, std::move(rest)),
+        speed(cell->arms.size()),
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
+
+  // Returns the motion clock at `now`.
+  [[nodiscard]] TimePoint clock() const { return speed.clock(now); }
+  // Returns true if the job has waited for scheduling.aging by the motion clock.
+  [[nodiscard]] bool has_aged(const Record& record) const {
+    return record.ages_from && clock() - record.ages_from->clock >= cell->scheduling.aging;
+  }
+  // Returns the cell time that the whole motion is predicted to take.
+  [[nodiscard]] Duration time_for(const Trajectory& motion) const {
+    return paced(motion.duration(), speed.pace(motion.arms()));
+  }
 
   // Returns true if the job's last check still applies. Precondition: the job is waiting.
   [[nodiscard]] bool is_judged(const Job& job) const {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/jobs/pace.h"
+#include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/precedence/motion_chains.h"
 #include "core/precedence/prediction.h"
@@ -35,7 +36,7 @@ class Timetable {
                        .after = chains_.before(m),
                        .held_at = is_stopped ? motions_[m].progress : motions_[m].held_at,
                        .stands_for = stands_[m],
-                       .pace = pace_of(job(m), now)});
+                       .pace = pace_of(job(m), state.speed.pace(motions_[m].arms), now)});
     }
     prediction_ = predict(ahead, dependencies_);
   }
@@ -54,7 +55,7 @@ class Timetable {
   // Returns what keeps the motion at rest for an unknown time: a stop, or what the last check of a
   // motion that rests on its path has found.
   [[nodiscard]] std::optional<Wait> held_by(std::size_t m) const {
-    if (auto stop = state_.arms.stop_of(job(m))) return stop;
+    if (auto wait = operator_wait(state_, job(m))) return wait;
     const auto* held = job(m).in<Held>();
     const bool brakes = job(m).in<Braking>() != nullptr && !is_given_up(job(m));
     const std::vector<Wait>* found = held != nullptr ? &held->judgement.found

@@ -45,7 +45,7 @@ class LockstepPolicy final : public Policy {
       if (queue.empty()) continue;
       const Record& record = book.at(queue.front());
       const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                        is_at_head(book, record) && !state.arms.stop_of(record.job) &&
+                        is_at_head(book, record) && !operator_wait(state, record.job) &&
                         !may_go_first(state, record);
       if (goes) round.jobs.insert(queue.front());
     }

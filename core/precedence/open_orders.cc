@@ -182,11 +182,13 @@ void OpenOrders::leave_open(const OrderChoice& choice) {
 // ---- What follows from it ----
 
 const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first, bool at_start) {
-  const bool begins = motions_[a_first ? order.b : order.a].authority <= Duration{};
+  const CoordinatedMotion& first = motions_[a_first ? order.a : order.b];
+  const CoordinatedMotion& second = motions_[a_first ? order.b : order.a];
+  const bool begins = second.authority <= Duration{};
   std::optional<Precedence>& made = order.made[variant(a_first, at_start && begins)];
   if (!made) {
     made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, a_first,
-                 at_start && begins);
+                 at_start && begins, second.outlook.pace / first.outlook.pace);
   }
   return *made;
 }

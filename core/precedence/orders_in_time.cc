@@ -52,14 +52,15 @@ class Line {
     const OpenOrder& seen = open_.orders()[order];
     const bool own_is_a = candidate_is_a(order);
     const std::size_t other = own_is_a ? seen.b : seen.a;
+    const double pace = open_.motions()[own_is_a ? seen.a : seen.b].outlook.pace;
     Window window;
     for (const ProgressBox& box : seen.region.boxes) {
-      const Duration own_from = own_is_a ? box.from_a : box.from_b;
+      const Duration own_from = paced(own_is_a ? box.from_a : box.from_b, pace);
+      const Duration own_to = paced(own_is_a ? box.to_a : box.to_b, pace);
       const auto comes = before.goes_beyond(other, own_is_a ? box.from_b : box.from_a);
       const auto leaves = before.comes_to(other, own_is_a ? box.to_b : box.to_a);
       if (comes) {
-        window.first_until =
-            std::min(window.first_until, *comes - (own_is_a ? box.to_a : box.to_b));
+        window.first_until = std::min(window.first_until, *comes - own_to);
       }
       window.second_from =
           leaves ? std::max(window.second_from, *leaves - own_from) : Duration::max();

@@ -19,7 +19,7 @@ ConflictRegion turned(ConflictRegion region) {
 }  // namespace
 
 Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
-                       bool waits_at_start)
+                       bool waits_at_start, double pace_ratio)
     : first_(a_first ? a : b),
       second_(a_first ? b : a),
       waits_at_start_(waits_at_start),
@@ -30,7 +30,7 @@ Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_fi
   // From the last box back: what still lies ahead of `first` holds `second` at its nearest edge.
   for (const ProgressBox& box : boxes) {
     const Duration limit = std::max(Duration{}, box.from_b - kShortOf);
-    begins = std::max(begins, box.to_a - limit);
+    begins = std::max(begins, box.to_a - paced(limit, pace_ratio));
     if (!steps_.empty() && limit >= steps_.back().limit) continue;
     if (!steps_.empty() && box.to_a == steps_.back().until) {
       steps_.back().limit = limit;

@@ -9,6 +9,11 @@
 
 namespace armloom {
 
+// Returns the cell time that `way` of trajectory time takes at this pace.
+[[nodiscard]] inline Duration paced(Duration way, double pace) {
+  return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
+}
+
 // Trajectory time by which a waiting motion stops before a region. Regions with other motions of
 // the same other arm have slightly different outlines. With this distance they do not begin before
 // the position of the waiting motion.
@@ -20,10 +25,11 @@ inline constexpr Duration kShortOf = std::chrono::milliseconds(20);
 class Precedence {
  public:
   // `region`: of the motions A and B, in this order. With `waits_at_start`, the second motion
-  // leaves its start only when it can pass without a stop, if both motions then keep their planned
-  // speed.
+  // leaves its start only when it can pass without a stop, if both motions then keep their pace.
+  // `pace_ratio`: pace of the second motion / pace of the first (Outlook::pace). It affects only
+  // when the second motion leaves its start.
   Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
-             bool waits_at_start = false);
+             bool waits_at_start = false, double pace_ratio = 1.0);
 
   [[nodiscard]] JobId first() const { return first_; }
   [[nodiscard]] JobId second() const { return second_; }

@@ -29,11 +29,6 @@ struct Dependency {
   const Precedence* precedence;
 };
 
-// Returns the cell time that `way` of trajectory time takes at this pace.
-[[nodiscard]] inline Duration paced(Duration way, double pace) {
-  return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
-}
-
 // Predicted times, relative to now, if every motion keeps its pace and waits only where it must.
 class Prediction {
  public:

@@ -84,8 +84,7 @@ void note_overtaken(State& state, const std::vector<JobId>& admitted) {
   }
   for (const JobId first : firsts) {
     Record& record = state.jobs.at(first);
-    const bool waits_long = record.job.in<Queued>() != nullptr && record.ages_from &&
-                            state.now - *record.ages_from >= state.cell->scheduling.aging;
+    const bool waits_long = record.job.in<Queued>() != nullptr && state.has_aged(record);
     if (!waits_long) continue;
     const auto overtaking = std::ranges::count_if(admitted, [&](JobId id) {
       const Record& other = state.jobs.at(id);
@@ -94,7 +93,7 @@ void note_overtaken(State& state, const std::vector<JobId>& admitted) {
     if (overtaking == 0) continue;
     const std::size_t before = record.job.starvation ? record.job.starvation->overtaken_by : 0;
     record.job.starvation =
-        Starvation{*record.ages_from, before + static_cast<std::size_t>(overtaking)};
+        Starvation{record.ages_from->at, before + static_cast<std::size_t>(overtaking)};
     state.jobs.changed(record);
   }
 }
@@ -282,7 +281,7 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<J
   }
   prepare_choice(state, jobs);
   std::vector<CoordinatedMotion> candidates;
-  for (JobId id : jobs) candidates.push_back(as_candidate(state.jobs.at(id).job));
+  for (JobId id : jobs) candidates.push_back(as_candidate(state, state.jobs.at(id).job));
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();

@@ -15,15 +15,11 @@ namespace {
 constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 
 void explain_pause(State& state, Record& record) {
+  if (auto speed = speed_wait(state, record.job)) {
+    return state.jobs.set_wait(record, std::move(*speed));
+  }
   const auto held = state.graph.held_back(record.job.id);
   if (held) state.jobs.set_wait(record, wait_for(*held));
-}
-
-// Later than this, going on from now, it may overrun.
-TimePoint overrun_after(const State& state, const Job& job) {
-  const double remaining_s = to_seconds(job.trajectory->duration() - job.progress);
-  return state.now + from_seconds(remaining_s * state.cell->execution.duration_scaling) +
-         state.cell->execution.duration_margin;
 }
 
 void pause_at_rest(State& state, Record& record) {
@@ -35,11 +31,11 @@ void pause_at_rest(State& state, Record& record) {
 void dispatch_if_ready(State& state, Record& record) {
   Job& job = record.job;
   if (!is_at_head(state.jobs, record)) return;
-  if (!record.ages_from) record.ages_from = state.now;
+  if (!record.ages_from) record.ages_from = {state.now, state.clock()};
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }
-  if (auto stop = state.arms.stop_of(job)) return state.jobs.set_wait(record, *stop);
+  if (auto wait = operator_wait(state, job)) return state.jobs.set_wait(record, *wait);
   if (record.asking.is_in_question) return;
   const Duration limit = state.graph.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
@@ -83,6 +79,15 @@ void go_on(State& state, Record& record) {
 
 }  // namespace
 
+// At share 0 there is no such time.
+TimePoint overrun_after(const State& state, const Job& job) {
+  const auto& arms = job.trajectory->arms();
+  if (state.speed.effective(arms) == 0.0) return TimePoint::max();
+  const Duration left = paced(job.trajectory->duration() - job.progress, state.speed.pace(arms));
+  return state.now + from_seconds(to_seconds(left) * state.cell->execution.duration_scaling) +
+         state.cell->execution.duration_margin;
+}
+
 void dispatch_ready(State& state) {
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
@@ -120,7 +125,10 @@ void see_pauses(State& state, Record& record, Duration progress_before) {
     moving->pause.reset();
     state.jobs.set_waits(record, {});
     state.jobs.changed(record);
-  } else if (is_held && job.progress + kAtLimit >= limit && !moving->pause) {
+    return;
+  }
+  const bool is_at_limit = is_held && job.progress + kAtLimit >= limit;
+  if ((is_at_limit || speed_wait(state, job)) && !moving->pause) {
     moving->pause.emplace();
     explain_pause(state, record);
     state.jobs.changed(record);

@@ -6,6 +6,8 @@ namespace armloom {
 
 // Gives admitted motions authority to move, as far as their passing orders allow.
 
+// Returns when the motion may have overrun if it continues from now at its speed override.
+[[nodiscard]] TimePoint overrun_after(const State& state, const Job& job);
 // Dispatches admitted motions whose orders let them leave their start, and extends the authority of
 // motions under way.
 void dispatch_ready(State& state);

@@ -35,7 +35,7 @@ auto* pause_of(JobType& job) {
 void see_whether_in_vain(const State& state, Record& record) {
   Pause* pause = pause_of(record.job);
   if (pause == nullptr) return;
-  if (state.arms.stop_of(record.job)) return pause->in_vain_since.reset();
+  if (operator_wait(state, record.job)) return pause->in_vain_since.reset();
   const bool held = record.job.in<Held>() != nullptr;
   if (held && !state.is_judged(record.job)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, record);
@@ -43,7 +43,7 @@ void see_whether_in_vain(const State& state, Record& record) {
     return wait.kind == Wait::Kind::object || is_idle_arm(state, wait);
   });
   if (!in_vain) pause->in_vain_since.reset();
-  if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.now;
+  if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.clock();
 }
 
 void fail_overdue(State& state, Record& record) {
@@ -55,9 +55,9 @@ void fail_overdue(State& state, Record& record) {
                "(duration x duration_scaling + duration_margin_s)"});
 }
 
-std::optional<TimePoint> deadline_of(const Job& job) {
+std::optional<TimePoint> deadline_of(const State& state, const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
-  const auto expiry = expiry_of(job);
+  const auto expiry = expiry_of(state, job);
   const auto* moving = job.in<Moving>();
   if (moving == nullptr) return expiry;
   return expiry ? std::min(moving->overrun_at, *expiry) : moving->overrun_at;
@@ -65,13 +65,13 @@ std::optional<TimePoint> deadline_of(const Job& job) {
 
 }  // namespace
 
-std::optional<TimePoint> expiry_of(const Job& job) {
+std::optional<TimePoint> expiry_of(const State& state, const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
   if (job.state() == JobState::backlogged)
-    return *job.times.backlogged_at + *job.terms.backlog_timeout;
+    return state.speed.when(job.times.backlog_clock + *job.terms.backlog_timeout);
   const Pause* pause = pause_of(job);
   if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
-  return *pause->in_vain_since + *job.terms.backlog_timeout;
+  return state.speed.when(*pause->in_vain_since + *job.terms.backlog_timeout);
 }
 
 void expire_and_overrun(State& state) {
@@ -80,14 +80,14 @@ void expire_and_overrun(State& state) {
     Record& record = state.jobs.at(id);
     Job& job = record.job;
     if (job.state() == JobState::backlogged) {
-      const auto expiry = expiry_of(job);
+      const auto expiry = expiry_of(state, job);
       if (!expiry || state.now < *expiry || goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
           "waited " + seconds_text(*job.terms.backlog_timeout) + " in the backlog");
       continue;
     }
     see_whether_in_vain(state, record);
-    const auto expiry = expiry_of(job);
+    const auto expiry = expiry_of(state, job);
     const bool in_vain = expiry && state.now >= *expiry;
     if (in_vain && goes_on_after_timeout(state, record)) continue;
     if (in_vain) {
@@ -105,7 +105,7 @@ std::optional<TimePoint> next_deadline(State& state) {
   for (JobId id : state.jobs.past_queue()) {
     Record& record = state.jobs.at(id);
     see_whether_in_vain(state, record);
-    const auto deadline = deadline_of(record.job);
+    const auto deadline = deadline_of(state, record.job);
     if (deadline) next = next ? std::min(*next, *deadline) : deadline;
   }
   return next;

@@ -12,8 +12,9 @@ namespace armloom {
 inline constexpr Duration kStandstill = std::chrono::seconds(10);
 
 // Returns when the job's backlog timeout is over if nothing changes; nullopt if the timeout is not
-// running.
-[[nodiscard]] std::optional<TimePoint> expiry_of(const Job& job);
+// running, or TimePoint::max() if it stands still because a speed override is 0. The timeout counts
+// by the motion clock (SpeedOverride).
+[[nodiscard]] std::optional<TimePoint> expiry_of(const State& state, const Job& job);
 
 // Ends motions that overrun, and jobs whose timeout is over. With OnTimeout::replan, a job is
 // replanned first.

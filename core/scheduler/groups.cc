@@ -30,7 +30,7 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& grou
 // It could go when those before it on its arms have gone.
 bool may_follow(const State& state, const Record& record) {
   return record.job.is_waiting() && !record.job.is_unplanned() && record.job.after.empty() &&
-         !lets_another_pass(state.jobs, record) && !state.arms.stop_of(record.job) &&
+         !lets_another_pass(state.jobs, record) && !operator_wait(state, record.job) &&
          state.lanes.follows_on(record.job.id) && !holds_one_ahead(state, record);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/jobs/pace.h"
+#include "core/jobs/standing.h"
 #include "core/policies/policy.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
@@ -24,6 +25,7 @@ constexpr double kMeasured = 1e-4;
 Motion::Stands stands_now(const State& state, const Job& job) {
   const auto* moving = job.in<Moving>();
   if (job.in<Held>() != nullptr) return Motion::Stands::stays;
+  if (speed_wait(state, job)) return Motion::Stands::may_stay;
   if (job.in<Braking>() != nullptr) return Motion::Stands::may_stay;
   if (moving != nullptr && is_standing(*moving, state.now)) return Motion::Stands::may_stay;
   return Motion::Stands::goes_on;
@@ -36,7 +38,8 @@ Motion motion_now(const State& state, const Record& record) {
                 .progress = job.progress,
                 .to_come = !state.jobs.queues().is_first(job),
                 .off_path = off_path_of(state, record),
-                .stands = stands_now(state, job)};
+                .stands = stands_now(state, job),
+                .share = state.speed.effective(job.trajectory->arms())};
 }
 
 // Its own motion, or the straight way by which its arm is brought to where that begins.
@@ -93,13 +96,14 @@ Question question_by_itself(const State& state, const Job& job) {
   return question;
 }
 
-CoordinatedMotion as_candidate(const Job& job) {
+CoordinatedMotion as_candidate(const State& state, const Job& job) {
   return {.job = job.id,
           .arms = job.trajectory->arms(),
           .duration = job.trajectory->duration(),
           .progress = job.progress,
           .authority = job.progress,
-          .priority = job.terms.priority};
+          .priority = job.terms.priority,
+          .outlook = {.pace = state.speed.pace(job.trajectory->arms())}};
 }
 
 void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state) {

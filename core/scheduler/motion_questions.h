@@ -16,7 +16,7 @@ namespace armloom {
 // joint, rad or m). Zero within the tracking error.
 [[nodiscard]] double off_path_of(const State& state, const Record& record);
 // Returns the job's motion as a candidate for passing orders.
-[[nodiscard]] CoordinatedMotion as_candidate(const Job& job);
+[[nodiscard]] CoordinatedMotion as_candidate(const State& state, const Job& job);
 // Returns where all joints will be after all admitted jobs. With `job`, the joints of its arm are
 // where the jobs before it leave them.
 [[nodiscard]] Configuration rest_after_admitted(const State& state, const Job* job = nullptr);

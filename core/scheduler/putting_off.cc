@@ -53,7 +53,9 @@ void stay_queued(State& state, Record& record, Judgement found) {
     state.jobs.changed(record);
   }
   judgement_of(record) = std::move(found);
-  if (!record.ages_from && is_at_head(state.jobs, record)) record.ages_from = state.now;
+  if (!record.ages_from && is_at_head(state.jobs, record)) {
+    record.ages_from = {state.now, state.clock()};
+  }
   state.jobs.set_waits(record, record.job.judgement().found);
 }
 
@@ -77,12 +79,14 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
   if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
-  if (!record.ages_from) record.ages_from = state.now;
+  if (!record.ages_from) record.ages_from = {state.now, state.clock()};
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {
     enter(state, record, Queued{.in_backlog = true, .judgement = queued->judgement});
-    auto& since = record.job.times.backlogged_at;
-    if (!since) since = state.now;
+    if (!record.job.times.backlogged_at) {
+      record.job.times.backlogged_at = state.now;
+      record.job.times.backlog_clock = state.clock();
+    }
     state.jobs.changed(record);
   }
 }

@@ -10,9 +10,11 @@
 #include "core/jobs/invariants.h"
 #include "core/jobs/pace.h"
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/setting_speed.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
@@ -59,20 +61,10 @@ void take(State& state, const Stop& input) {
   compare_again(state);
 }
 
-// A job that was told to wait for the stop is told anew what it waits for.
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
-  for (ArmId arm : input.arms) {
-    for (JobId id : state.jobs.queues()[arm]) {
-      Record& record = state.jobs.at(id);
-      const auto is_stop = [](const Wait& wait) { return wait.kind == Wait::Kind::stop; };
-      if (std::ranges::none_of(record.job.waits_on, is_stop)) continue;
-      const auto stop = state.arms.stop_of(record.job);
-      stop ? state.jobs.set_wait(record, *stop) : state.jobs.set_waits(record, {});
-      state.jobs.explain(record);
-    }
-  }
+  for (ArmId arm : input.arms) explain_again(state, arm);
 }
 
 // Returns the detail of Reason::start_mismatch if the job's arm rests off its path; records how far
@@ -120,6 +112,7 @@ void take(State& state, const Located& input) {
   }
   compare_again(state);
 }
+void take(State& state, const SetSpeed& input) { set_speed(state, input); }
 
 void take(State& state, const SceneChanged& input) {
   state.scene_epoch = ++state.version;
@@ -308,6 +301,13 @@ const Job* Scheduler::find(JobId job) const {
   return record != nullptr ? &record->job : nullptr;
 }
 
+std::optional<TimePoint> Scheduler::expiry(JobId job) const {
+  const Job* found = find(job);
+  if (found == nullptr) return std::nullopt;
+  const auto expiry = expiry_of(state_, *found);
+  return expiry == TimePoint::max() ? std::nullopt : expiry;
+}
+
 std::vector<JobId> Scheduler::active() const {
   return {state_.jobs.active().begin(), state_.jobs.active().end()};
 }
@@ -381,7 +381,7 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
   }
   if (question.candidates.size() != 1) return std::nullopt;
   const std::vector<CoordinatedMotion> candidate{
-      as_candidate(state_.jobs.at(question.candidates.front().job).job)};
+      as_candidate(state_, state_.jobs.at(question.candidates.front().job).job)};
   const PassingOrders orders =
       orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
   if (!orders.blockers.empty()) return std::nullopt;

@@ -75,6 +75,14 @@ class Scheduler {
     return predicted_timeline(state_, now);
   }
 
+  [[nodiscard]] const SpeedOverride& speed() const { return state_.speed; }
+  // Returns the cell time that the whole motion is predicted to take at the present override.
+  [[nodiscard]] Duration time_for(const Trajectory& motion) const {
+    return state_.time_for(motion);
+  }
+  // Returns when the active job expires (deadlines.h).
+  [[nodiscard]] std::optional<TimePoint> expiry(JobId job) const;
+
   [[nodiscard]] const Job* find(JobId job) const;   // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   // Returns true if the arm's queue has a job.

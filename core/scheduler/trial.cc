@@ -88,7 +88,8 @@ Duration Trial::approach_ends() const {
   for (JobId id : approaches_) {
     const Job& approach = *scheduler_.find(id);
     if (!approach.times.scheduled_at) continue;
-    last = std::max(last, *approach.times.scheduled_at - now_ + approach.trajectory->duration());
+    last = std::max(
+        last, *approach.times.scheduled_at - now_ + scheduler_.time_for(*approach.trajectory));
   }
   return last;
 }

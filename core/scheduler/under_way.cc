@@ -21,7 +21,7 @@ void put_under_way(State& state, const std::vector<Motion>& motions) {
     enter(state, record, Admitted{});
     enter(state, record,
           Moving{.overrun_at = TimePoint::max(), .moved_at = state.now, .is_under_way = has_moved});
-    admitted.push_back(as_candidate(record.job));
+    admitted.push_back(as_candidate(state, record.job));
   }
   state.graph.admit(admitted, PassingOrders{});
 }

@@ -15,6 +15,14 @@ constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
 }  // namespace
 
+std::vector<Duration> work_behind(const State& state, const std::vector<const Job*>& in_front) {
+  std::vector<Duration> work = state.jobs.queues().work_but(in_front);
+  for (std::uint32_t arm = 0; arm < work.size(); ++arm) {
+    work[arm] = paced(work[arm], state.speed.pace({ArmId{arm}}));
+  }
+  return work;
+}
+
 void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   std::vector<const Job*> in_front;
   for (JobId id : jobs) in_front.push_back(&state.jobs.at(id).job);
@@ -22,14 +30,15 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
     const Record& record = state.jobs.at(motion.job);
     const bool weighs = state.policy->weighs_again();
     const Duration stands = weighs ? stood_for(record.job, state.now) : Duration{};
-    const bool is_aged =
-        record.ages_from && state.now - *record.ages_from >= state.cell->scheduling.aging;
-    state.graph.set_outlook(motion.job, {.keeps_its_place = is_aged && stands <= Duration{},
-                                         .stands_for = stands,
-                                         .pace = weighs ? pace_of(record.job, state.now) : 1.0});
+    const bool is_aged = state.has_aged(record);
+    const double planned = state.speed.pace(motion.arms);
+    state.graph.set_outlook(motion.job,
+                            {.keeps_its_place = is_aged && stands <= Duration{},
+                             .stands_for = stands,
+                             .pace = weighs ? pace_of(record.job, planned, state.now) : planned});
     in_front.push_back(&record.job);
   }
-  state.graph.set_work_behind(state.jobs.queues().work_but(in_front));
+  state.graph.set_work_behind(work_behind(state, in_front));
 }
 
 bool is_off_course(const State& state) {

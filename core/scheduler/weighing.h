@@ -18,6 +18,11 @@ void weigh_again(State& state);
 // Returns when to check for deviations if no input comes before; nullopt if this is not needed.
 [[nodiscard]] std::optional<TimePoint> weighs_next(const State& state);
 
+// Returns for each arm (ArmId) the predicted time of its jobs except these, at the present speed
+// override.
+[[nodiscard]] std::vector<Duration> work_behind(const State& state,
+                                                const std::vector<const Job*>& in_front);
+
 // Updates the precedence graph before orders are chosen for the admitted motions and for `jobs`.
 // Sets the work behind all of these, predicted rests and paces, and which motions may not be
 // overtaken any more.

@@ -4,6 +4,7 @@
 
 #include "core/jobs/pace.h"
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
 #include "core/policies/policy.h"
 
 namespace armloom {
@@ -21,7 +22,7 @@ void compare_again(State& state) {
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     record.asking.is_in_question = true;
-    const bool is_kept = record.job.in<Admitted>() != nullptr && state.arms.stop_of(record.job);
+    const bool is_kept = record.job.in<Admitted>() != nullptr && operator_wait(state, record.job);
     if (is_kept) withdraw(state, record, {});
   }
   ++state.version;

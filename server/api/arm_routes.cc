@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/executive/status_board.h"
@@ -106,6 +108,85 @@ void resume_all(Call call) {
       });
 }
 
+void get_speed(Call call) {
+  call.respond(answer(200, speed_override_format(),
+                      SpeedShare{call.parts.loop.board().read().speed_override}));
+}
+void get_arm_speed(Call call) {
+  const auto arm = named_arm(call);
+  if (!arm) return;
+  const auto arms = arms_of(call.parts.loop.board().read(), *call.parts.cell);
+  call.respond(answer(200, arm_speed_format(), arms[arm->index()]));
+}
+
+void put_speed(Call call) {
+  const auto set = [&parts = call.parts, respond = call.respond](const SpeedShare& asked) {
+    ask_urgently(
+        parts,
+        [asked](Executive& executive) {
+          executive.set_speed(std::nullopt, asked.share);
+          return asked;
+        },
+        [respond](const SpeedShare& now) { respond(answer(200, speed_override_format(), now)); });
+  };
+  read_body(call.parts, call.request, call.respond, read_speed_override, set);
+}
+void put_arm_speed(Call call) {
+  const auto arm = named_arm(call);
+  if (!arm) return;
+  const auto set = [&parts = call.parts, arm, respond = call.respond](const SpeedShare& asked) {
+    ask_urgently(
+        parts,
+        [arm = *arm, asked](Executive& executive) {
+          executive.set_speed(arm, asked.share);
+          return executive.arms()[arm.index()];
+        },
+        [respond](const ArmView& view) { respond(answer(200, arm_speed_format(), view)); });
+  };
+  read_body(call.parts, call.request, call.respond, read_speed_override, set);
+}
+
+std::vector<Route> speed_routes() {
+  const auto route = [](const char* method, const char* path, const char* id, const char* summary) {
+    return Route{.method = method,
+                 .path = api_path(path),
+                 .id = id,
+                 .tag = "arms",
+                 .summary = summary,
+                 .as_text = speed_text};
+  };
+  const auto setting = [&](const char* path, const char* id, const char* summary) {
+    Route put = route("PUT", path, id, summary);
+    put.text =
+        "Applies at once, also in motion: the speed changes within the joints' limits. At 0 the "
+        "arms come to rest on their paths, and their jobs wait for kind `speed`. Passing orders "
+        "and certificates hold at any override. Timeouts and aging count at the smallest override "
+        "of all arms. This is no safety function: an override of 0 is not a stop.";
+    put.reads = body(speed_override_format(), {{"quarter", R"({"speed_override": 0.25})"}});
+    put.refuses = {422};
+    put.who = Who::commander;
+    put.role = Role::operate;
+    return put;
+  };
+  Route get = route("GET", "/speed", "getSpeedOverride", "Get the speed override of the cell");
+  get.outcomes = {outcome(200, "The speed override of the cell", speed_override_format())};
+  get.run = get_speed;
+  Route put = setting("/speed", "setSpeedOverride", "Set the speed override of the cell");
+  put.outcomes = {outcome(200, "The override that now applies", speed_override_format())};
+  put.run = put_speed;
+  Route get_one =
+      route("GET", "/arms/{name}/speed", "getArmSpeedOverride", "Get the speed override of an arm");
+  get_one.outcomes = {outcome(200, "The speed override of the arm", arm_speed_format())};
+  get_one.refuses = {404};
+  get_one.run = get_arm_speed;
+  Route put_one =
+      setting("/arms/{name}/speed", "setArmSpeedOverride", "Set the speed override of an arm");
+  put_one.outcomes = {outcome(200, "The override that now applies", arm_speed_format())};
+  put_one.refuses = {404, 422};
+  put_one.run = put_arm_speed;
+  return {get, put, get_one, put_one};
+}
+
 Route command(const char* path, const char* id, const char* summary) {
   return {.method = "POST",
           .path = api_path(path),
@@ -145,7 +226,7 @@ std::vector<Route> arm_routes() {
       stopped_format())};
   resume.as_text = stopped_text;
   resume.run = resume_all;
-  return {
+  std::vector<Route> routes{
       {.method = "GET",
        .path = api_path("/arms"),
        .id = "listArms",
@@ -168,6 +249,8 @@ std::vector<Route> arm_routes() {
       stop,
       resume,
   };
+  std::ranges::move(speed_routes(), std::back_inserter(routes));
+  return routes;
 }
 
 }  // namespace armloom

@@ -79,7 +79,7 @@ struct Route {
 [[nodiscard]] Route batch_route();
 [[nodiscard]] Route amend_route();
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
-[[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
+[[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume, /speed
 [[nodiscard]] std::vector<Route> control_routes();     // /control, /arms/{name}/jog
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes

@@ -280,6 +280,18 @@ Command stop_command(CLI::App& app) {
   return {command, [options] { return stop_remote_arms(*options); }};
 }
 
+Command speed_command(CLI::App& app) {
+  const auto options = std::make_shared<SpeedOptions>();
+  CLI::App* command = app.add_subcommand(
+      "speed",
+      "set or print the speed override of a running server (not the time of a simulation)");
+  command->add_option("override", options->share,
+                      "largest share of the planned speed: 0, or 0.001 to 1 (default: print it)");
+  command->add_option("--arm", options->arms, "arms to set (default: the cell)");
+  add_server(*command, options->server);
+  return {command, [options] { return speed_of_remote_arms(*options); }};
+}
+
 Command events_command(CLI::App& app) {
   const auto options = std::make_shared<EventsOptions>();
   CLI::App* command = app.add_subcommand("events", "print the events of a running server");
@@ -368,7 +380,7 @@ std::vector<Command> add_commands(CLI::App& app) {
       check_command(app),   plan_command(app),     reach_command(app),   simulate_command(app),
       compare_command(app), replay_command(app),   history_command(app), token_command(app),
       audit_command(app),   jobs_command(app),     why_command(app),     stop_command(app),
-      resume_command(app),  cancel_command(app),   events_command(app),
+      resume_command(app),  speed_command(app),    cancel_command(app),  events_command(app),
   };
   refuse_empty_values(app);
   return commands;

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "server/command/command.h"
 #include "server/http/http_client.h"
@@ -54,11 +55,12 @@ int bad_url(const Problems& problems) {
 }
 
 // Sends the request and prints the answer. `target` is without the prefix of the API.
-int send(const RemoteOptions& options, const char* method, const std::string& target) {
+int send(const RemoteOptions& options, const char* method, const std::string& target,
+         std::string body = {}) {
   const auto server = read_server_url(options.url);
   if (!server) return bad_url(server.error());
-  const auto response =
-      fetch(*server, {method, kApiPrefix + target, options.token, options.json ? kJson : kText});
+  const auto response = fetch(*server, {method, kApiPrefix + target, options.token,
+                                        options.json ? kJson : kText, std::move(body)});
   if (!response) return unreachable(response.error());
   if (response->status >= 300) {
     if (options.json) std::cout << response->body << std::flush;
@@ -69,11 +71,12 @@ int send(const RemoteOptions& options, const char* method, const std::string& ta
 }
 
 // Sends a command to each of the arms, or to all.
-int send_to_arms(const ArmsOptions& options, const std::string& command) {
-  if (options.arms.empty()) return send(options.server, "POST", command);
+int send_to_arms(const RemoteOptions& server, const std::vector<std::string>& arms,
+                 const char* method, const std::string& command, const std::string& body = {}) {
+  if (arms.empty()) return send(server, method, command, body);
   int code = kExitDone;
-  for (const std::string& arm : options.arms) {
-    const int one = send(options.server, "POST", "/arms/" + url_segment(arm) + command);
+  for (const std::string& arm : arms) {
+    const int one = send(server, method, "/arms/" + url_segment(arm) + command, body);
     if (code == kExitDone) code = one;
   }
   return code;
@@ -96,8 +99,18 @@ int cancel_remote_job(const OneJobOptions& options) {
   return send(options.server, "DELETE", "/jobs/" + url_segment(options.job));
 }
 
-int stop_remote_arms(const ArmsOptions& options) { return send_to_arms(options, "/stop"); }
-int resume_remote_arms(const ArmsOptions& options) { return send_to_arms(options, "/resume"); }
+int stop_remote_arms(const ArmsOptions& options) {
+  return send_to_arms(options.server, options.arms, "POST", "/stop");
+}
+int resume_remote_arms(const ArmsOptions& options) {
+  return send_to_arms(options.server, options.arms, "POST", "/resume");
+}
+
+int speed_of_remote_arms(const SpeedOptions& options) {
+  if (!options.share) return send_to_arms(options.server, options.arms, "GET", "/speed");
+  const Schema body{{"speed_override", *options.share}};
+  return send_to_arms(options.server, options.arms, "PUT", "/speed", body.dump());
+}
 
 int print_events(const EventsOptions& options) {
   const auto server = read_server_url(options.server.url);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,14 @@ struct ArmsOptions {
 // Stop or resume each of the arms, even if an earlier request fails.
 int stop_remote_arms(const ArmsOptions& options);
 int resume_remote_arms(const ArmsOptions& options);
+
+struct SpeedOptions {
+  RemoteOptions server;
+  std::optional<double> share;    // default: print the present override
+  std::vector<std::string> arms;  // default: the cell
+};
+// Sets or prints the speed override of the cell, or of each of the arms.
+int speed_of_remote_arms(const SpeedOptions& options);
 
 struct EventsOptions {
   RemoteOptions server;

@@ -71,8 +71,8 @@ class ClientStream {
   beast::flat_buffer buffer_;
 };
 
-http::request<http::empty_body> message_of(const ServerUrl& server, const ClientRequest& request) {
-  http::request<http::empty_body> message;
+http::request<http::string_body> message_of(const ServerUrl& server, const ClientRequest& request) {
+  http::request<http::string_body> message;
   message.version(11);
   message.method_string(request.method);
   message.target(server.prefix + request.target);
@@ -81,7 +81,9 @@ http::request<http::empty_body> message_of(const ServerUrl& server, const Client
   message.set(http::field::connection, "close");
   if (!request.accept.empty()) message.set(http::field::accept, request.accept);
   if (!request.token.empty()) message.set(http::field::authorization, "Bearer " + request.token);
-  if (request.method != "GET") message.content_length(0);
+  if (!request.body.empty()) message.set(http::field::content_type, "application/json");
+  message.body() = request.body;
+  if (request.method != "GET") message.prepare_payload();
   return message;
 }
 

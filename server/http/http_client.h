@@ -24,6 +24,7 @@ struct ClientRequest {
   std::string target;       // below the prefix: "/api/v1/jobs"
   std::string token = {};   // sent as a bearer token unless empty
   std::string accept = {};  // media type
+  std::string body = {};    // JSON
 };
 struct ClientResponse {
   int status = 0;

@@ -1,14 +1,79 @@
 #include "server/messages/arm.h"
 
+#include <optional>
+#include <string>
+
+#include "core/jobs/speed_override.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/output_part.h"
+#include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
 
 using namespace formats;
+
+namespace {
+
+// 0, or SpeedOverride::kSmallestShare to 1.
+class ShareFormat final : public CustomFormat<double> {
+ public:
+  void read(const JsonNode& node, double& out) const override {
+    double share = 0.0;
+    if (!node.read(share)) return;
+    if (SpeedOverride::is_valid(share)) return void(out = share);
+    node.invalid("out-of-range", "a speed override is 0, or from " + smallest() + " to 1");
+  }
+  void write(JsonWriter& out, const double& share) const override { out.value(share); }
+  Schema schema(Way) const override {
+    const Schema moving{
+        {"type", "number"}, {"minimum", SpeedOverride::kSmallestShare}, {"maximum", 1.0}};
+    return {{"anyOf", {Schema{{"const", 0}}, moving}}};
+  }
+
+ private:
+  static std::string smallest() { return Schema(SpeedOverride::kSmallestShare).dump(); }
+};
+
+PartPtr<ArmView> arm_speed_part() {
+  const auto own = [](const ArmView& arm) { return std::optional(arm.speed_override); };
+  const auto effective = [](const ArmView& arm) {
+    return std::optional(arm.effective_speed_override);
+  };
+  return parts<ArmView>({
+      output_if("speed_override", own, number({0.0, 1.0}),
+                "Speed override of this arm: largest share of the planned speed; absent in old "
+                "recordings"),
+      output_if("effective_speed_override", effective, number({0.0, 1.0}),
+                "Override at which the arm moves: cell's override x this arm's. The arms of one "
+                "motion all move at the smallest of theirs"),
+  });
+}
+
+}  // namespace
+
+FormatPtr<SpeedShare> speed_override_format() {
+  static const auto format = named(
+      "SpeedOverride", "",
+      object<SpeedShare>({required(
+          "speed_override", &SpeedShare::share, FormatPtr<double>(make_format<ShareFormat>()),
+          "Largest share of the planned speed: 0, or 0.001 to 1. At 0 the arms come to rest on "
+          "their paths until it is raised")}));
+  return format;
+}
+
+Result<SpeedShare> read_speed_override(std::string_view text) {
+  return read_text(*speed_override_format(), text);
+}
+
+FormatPtr<ArmView> arm_speed_format() {
+  static const auto format =
+      named("ArmSpeedOverride", "",
+            object<ArmView>({output_only("name", &ArmView::name, text()), arm_speed_part()}));
+  return format;
+}
 
 FormatPtr<ArmView> arm_format() {
   static const auto format = [] {
@@ -34,6 +99,7 @@ FormatPtr<ArmView> arm_format() {
                         "until it is resumed"),
             output_only("link_detail", &ArmView::link_detail, text_or_null(),
                         "Why the link is not up; null if it is"),
+            arm_speed_part(),
         }));
   }();
   return format;

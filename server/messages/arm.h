@@ -1,7 +1,9 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
+#include "core/base/problem.h"
 #include "core/executive/events.h"
 #include "server/codec/format.h"
 
@@ -9,6 +11,15 @@ namespace armloom {
 
 [[nodiscard]] FormatPtr<ArmView> arm_format();
 [[nodiscard]] FormatPtr<std::vector<ArmView>> arm_list_format();
+
+// Body and answer of PUT /speed, and body of PUT /arms/{name}/speed.
+struct SpeedShare {
+  double share;  // SpeedOverride::is_valid()
+};
+[[nodiscard]] FormatPtr<SpeedShare> speed_override_format();
+[[nodiscard]] Result<SpeedShare> read_speed_override(std::string_view text);
+// Answer to GET and PUT /arms/{name}/speed: the members of an arm that concern its speed.
+[[nodiscard]] FormatPtr<ArmView> arm_speed_format();
 
 // Answer to POST /stop and /resume.
 struct Stopped {

@@ -106,6 +106,10 @@ FormatPtr<SnapshotView> snapshot_format() {
           output_only("speed", &View::speed, number(kPositive)),
           output_only(
               "stopped", [](const View& view) { return view.snapshot->queue.stopped; }, flag()),
+          output_if(
+              "speed_override",
+              [](const View& view) { return std::optional(view.snapshot->queue.speed_override); },
+              number({0.0, 1.0}), "Speed override of the cell; absent in old recordings"),
           output_only(
               "arms", [](const View& view) { return &view.snapshot->arms; }, list(arm_format())),
           output_only(

@@ -93,11 +93,14 @@ FormatPtr<JobPage> job_page_format() {
 
 FormatPtr<QueueView> queue_ids_format() {
   const auto policy = [](const QueueView& view) { return std::optional(view.policy); };
+  const auto speed = [](const QueueView& view) { return std::optional(view.speed_override); };
   static const auto format =
       named("QueueIds", "",
             object<QueueView>({
                 output_if("policy", policy, text(), "Present policy; absent in old recordings"),
                 output_only("stopped", &QueueView::stopped, flag(), "true if every arm is stopped"),
+                output_if("speed_override", speed, number({0.0, 1.0}),
+                          "Speed override of the cell; absent in old recordings"),
                 ids("queued", &QueueView::queued),
                 ids("backlog", &QueueView::backlog),
                 ids("scheduled", &QueueView::scheduled),

@@ -93,6 +93,7 @@ std::string waited_for(const Schema& wait) {
     const std::string arm = text_at(wait, "arm");
     return (arm.empty() ? std::string("a stopped arm") : "arm " + arm) + " to be resumed";
   }
+  if (kind == "speed") return "the speed override to be raised";
   if (kind == "predecessor") return blocker_of(wait) + " to end first";
   if (kind == "capacity")
     return blocker_of(wait) + ", because the policy limits what moves at once";
@@ -170,6 +171,9 @@ std::string remedy_of(const Schema& job) {
   if (waits_on(job, "stop")) {
     return " To let it continue: POST /api/v1/resume, or /api/v1/arms/NAME/resume; or " + cancel +
            ".";
+  }
+  if (waits_on(job, "speed")) {
+    return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
   }
   if (waits_on(job, "arm") || waits_on(job, "object") || waits_on(job, "job")) {
     return std::string(text_at(job, "state") == "paused" ? " It goes on" : " It starts") +
@@ -258,6 +262,11 @@ std::string jobs_table(const Schema& jobs) {
   return table_of(rows);
 }
 
+// "25 %", "0.1 %"
+std::string override_text(std::optional<double> share) {
+  return share ? printed("%g %%", 100.0 * *share) : "-";
+}
+
 // The data of an event, on one line.
 std::string news_of(const std::string& type, const Schema& data) {
   if (type == "job") {
@@ -266,11 +275,15 @@ std::string news_of(const std::string& type, const Schema& data) {
   }
   if (type == "arm") {
     const std::string job = text_at(data, "job");
+    const auto speed = number_at(data, "effective_speed_override");
     return text_at(data, "name") + " " + text_at(data, "state") +
-           (job.empty() ? "" : ", job " + job);
+           (job.empty() ? "" : ", job " + job) +
+           (speed && *speed < 1.0 ? ", speed override " + override_text(speed) : "");
   }
   if (type == "queue") {
     std::string text = flag_at(data, "stopped") ? "all arms are stopped; " : "";
+    const auto speed = number_at(data, "speed_override");
+    if (speed && *speed < 1.0) text += "speed override " + override_text(speed) + "; ";
     for (const char* list : {"queued", "backlog", "scheduled", "running"}) {
       text += (std::string_view(list) == "queued" ? "" : ", ") +
               std::to_string(list_at(data, list).size()) + " " + list;
@@ -328,8 +341,17 @@ std::string queue_text(const Schema& queue, double) {
   return text + (jobs.empty() ? "no jobs\n" : jobs_table(jobs));
 }
 
+std::string speed_text(const Schema& speed, double) {
+  const std::string arm = text_at(speed, "name");
+  std::string text = "speed override of " + (arm.empty() ? "the cell" : "arm " + arm) + ": " +
+                     override_text(number_at(speed, "speed_override"));
+  const auto effective = number_at(speed, "effective_speed_override");
+  if (effective) text += "; with the cell's: " + override_text(effective);
+  return text + '\n';
+}
+
 std::string arm_list_text(const Schema& arms, double) {
-  std::vector<Row> rows{{"ARM", "STATE", "JOB", "PROGRESS", "POSITIONS"}};
+  std::vector<Row> rows{{"ARM", "STATE", "JOB", "PROGRESS", "OVERRIDE", "POSITIONS"}};
   for (const Schema& arm : list_at(arms, "arms")) {
     const std::string job = text_at(arm, "job");
     std::string q;
@@ -337,7 +359,8 @@ std::string arm_list_text(const Schema& arms, double) {
       q += (q.empty() ? "" : " ") + printed("%.3f", position.get<double>() + 0.0);
     }
     rows.push_back({text_at(arm, "name"), text_at(arm, "state"), job.empty() ? "-" : job,
-                    job.empty() ? "-" : percent(arm), q});
+                    job.empty() ? "-" : percent(arm),
+                    override_text(number_at(arm, "effective_speed_override")), q});
   }
   return table_of(rows);
 }

@@ -16,6 +16,7 @@ namespace armloom {
 [[nodiscard]] std::string queue_text(const Schema& queue, double now_s);
 [[nodiscard]] std::string arm_text(const Schema& arm, double now_s);
 [[nodiscard]] std::string arm_list_text(const Schema& arms, double now_s);
+[[nodiscard]] std::string speed_text(const Schema& speed, double now_s);
 [[nodiscard]] std::string stopped_text(const Schema& stopped, double now_s);
 [[nodiscard]] std::string problem_text(const Schema& problem);
 

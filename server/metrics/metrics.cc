@@ -46,9 +46,9 @@ class Metrics::Impl {
     for (const JobState state : kJobEnds) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
-    for (const Wait::Kind kind :
-         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::predecessor,
-          Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard}) {
+    for (const Wait::Kind kind : {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object,
+                                  Wait::Kind::predecessor, Wait::Kind::capacity, Wait::Kind::stop,
+                                  Wait::Kind::plan, Wait::Kind::guard, Wait::Kind::speed}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
     for (const char* what : {"requests", "jobs", "connections"}) limited_.Add({{"what", what}});

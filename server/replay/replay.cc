@@ -137,6 +137,11 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Replanned& in) { (void)executive().replan(in.job); }
   void comes(const In::Stopped& in) { executive().stop(arms(in.arms), in.cause); }
   void comes(const In::Resumed& in) { executive().resume(arms(in.arms)); }
+  void comes(const In::SpeedSet& in) {
+    if (!SpeedOverride::is_valid(in.share)) throw std::invalid_argument("wrong speed override");
+    executive().set_speed(in.arm.empty() ? std::nullopt : std::optional(arms({in.arm}).front()),
+                          in.share);
+  }
   void comes(const In::PolicyChanged& in) { (void)executive().policy().change(in.policy); }
   void comes(const In::WoundDown& in) {
     executive().wind_down(in.cause, in.waiting, [] {});

@@ -44,6 +44,7 @@ struct Commander {
   void brake(StopCategory category = StopCategory::brake) {
     controller.send({++number, ArmCommand::Brake{category}});
   }
+  void set_speed(double share) { controller.send({++number, ArmCommand::SetSpeed{share}}); }
   void release() { controller.send({++number, ArmCommand::Release{}}); }
 
   ArmController& controller;

@@ -259,6 +259,23 @@ TEST_F(Link, ReportsAFaultIfTheControllerWasRestarted) {
   EXPECT_EQ(controller.sent.back().number, 1u) << "continues the controller's numbers";
 }
 
+TEST_F(Link, CommandsTheSpeedOverrideAgainOnEachNewConnectionBeforeAnyMotion) {
+  come_up();
+  link.command(ArmCommand::SetSpeed{0.5});
+  link.command(ArmCommand::SetSpeed{0.25});
+  link.flush(controller);
+  ASSERT_EQ(controller.sent.size(), 1U) << "only the last one counts";
+  controller.connected = {true, "", 2};
+  pass();
+  controller.sent.clear();
+  follow();
+  report();
+  ASSERT_EQ(controller.sent.size(), 2U);
+  const auto* speed = std::get_if<ArmCommand::SetSpeed>(&controller.sent.front().what);
+  ASSERT_NE(speed, nullptr);
+  EXPECT_EQ(speed->share, 0.25);
+}
+
 TEST_F(Link, ToleratesAClockThatDriftsSlowly) {
   come_up();
   for (int i = 0; i < 100'000; ++i) {

@@ -108,6 +108,38 @@ test('Policies page compares the policies and activates another one', { timeout:
   await page.locator('[data-test=compared-certified]').getByText('active', { exact: true }).waitFor();
 });
 
+test('Speed override is set by keyboard, applies in motion, and follows other clients', { timeout: 300_000 }, async () => {
+  await speed(1);
+  await go('#/');
+  const value = (which) => page.locator(`[data-test=speed-${which}-value]`);
+  const slider = (which) => page.locator(`[data-test=speed-${which}]`);
+  const told = async (path) => (await ask(page, 'GET', path)).value.speed_override;
+  await slider('cell').focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press('PageDown');
+  await reads(value('cell'), /^50 %$/);
+  await eventually(async () => assert.equal(await told('/speed'), 0.5));
+  await reads(value('left'), /^100 % → 50 %$/);
+
+  const { names, q } = await arm_now(page, 'left');
+  assert.equal((await ask(page, 'POST', '/jobs', job_through('slow', names, [q, kMiddle, q], 4))).status, 202);
+  await page.locator('[data-test=list-running] [data-test=job-slow]').waitFor();
+  await slider('left').focus();
+  await page.keyboard.press('Home');
+  await reads(value('left'), /^0 % → 0 %$|^0 %$/);
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'paused' }).waitFor();
+  await page.locator('[data-test=arm-left] [data-test=arm-waits]', { hasText: 'until the speed override is raised' }).waitFor();
+  await page.screenshot(path_for('speed-dark'));
+
+  await ask(page, 'PUT', '/arms/left/speed', { speed_override: 0.8 });  // another client
+  await reads(value('left'), /^80 % → 40 %$/);
+  assert.equal(await slider('left').inputValue(), '80');
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
+  for (const path of ['/speed', '/arms/left/speed']) await ask(page, 'PUT', path, { speed_override: 1 });
+  await speed(10);
+  await ended('slow');
+  await speed(1);
+});
+
 // The connection stays open, but the server sends no data.
 test('Old data is marked with its age until new data arrives', { timeout: 300_000 }, async () => {
   const age_s = async (locator) => Number((await locator.textContent()).match(/([\d.]+) s/)[1]);

@@ -317,6 +317,22 @@ test('arms stop and resume', async () => {
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
 });
 
+test('speed override is set for the cell and for an arm', async () => {
+  for (const [at, args] of [[`${v1}/speed`, {}], [`${v1}/arms/{name}/speed`, {name: 'left'}]]) {
+    for (const speed_override of [-1, 0.0001, 2]) {
+      const body = {speed_override};
+      await call(422, 'PUT', at, {args, body});
+      assert.ok(!contract.fitsBody(at, 'PUT', body), JSON.stringify(body));
+    }
+    const set = await call(200, 'PUT', at, {args, body: example(at, 'PUT', 'quarter')});
+    assert.equal(set.speed_override, 0.25);
+    assert.deepEqual(await call(200, 'GET', at, {args}), set);
+    await call(200, 'PUT', at, {args, body: {speed_override: 1}});
+  }
+  await call(404, 'GET', `${v1}/arms/{name}/speed`, {args: {name: 'nobody'}});
+  await call(404, 'PUT', `${v1}/arms/{name}/speed`, {args: {name: 'nobody'}, body: {speed_override: 1}});
+});
+
 test('objects are added, moved and removed', async () => {
   const rod = example(`${v1}/scene/objects`, 'POST', 'rod');
   await call(201, 'POST', `${v1}/scene/objects`, {body: rod});

@@ -11,6 +11,7 @@
 #include "server/codec/json_text.h"
 #include "server/codec/schema_names.h"
 #include "server/messages/alert.h"
+#include "server/messages/arm.h"
 #include "server/messages/cell.h"
 #include "server/messages/comparison.h"
 #include "server/messages/control.h"
@@ -66,6 +67,7 @@ std::vector<Incoming> all_incoming() {
           incoming("FaultRequest", *fault_request_format()),
           incoming("SceneRequest", *scene_request_format()),
           incoming("Speed", *speed_format()),
+          incoming("SpeedOverride", *speed_override_format()),
           incoming("Goal", *plan_goal_format()),
           incoming("cell file", cell_format()),
           incoming("PlanRequest", *plan_inquiry_format()),

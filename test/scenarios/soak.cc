@@ -67,8 +67,12 @@ struct Soak::Watch final : Observer {
   std::string first;
 };
 
-Soak::Soak(std::uint64_t seed, World world, const std::string& policy)
-    : random_(seed), policy_(policy), watch_(std::make_unique<Watch>()) {
+Soak::Soak(std::uint64_t seed, World world, const std::string& policy, bool slows)
+    : random_(seed),
+      random_speed_(seed + 1),
+      slows_(slows),
+      policy_(policy),
+      watch_(std::make_unique<Watch>()) {
   const CellDescription description = world == World::sliders ? sliders(random_) : pandas(random_);
   auto cell = build_cell(description);
   if (!cell) throw std::runtime_error(cell.error().front().detail);
@@ -255,6 +259,15 @@ void Soak::command() {
   }
 }
 
+void Soak::change_speed() {
+  const std::size_t which = random_speed_.index(arms_.size() + 1);
+  const std::vector<double> shares{0.0, 0.05, 0.3, 0.7, 1.0, 1.0};
+  executive().set_speed(which == arms_.size()
+                            ? std::nullopt
+                            : std::optional(ArmId{static_cast<std::uint32_t>(which)}),
+                        shares[random_speed_.index(shares.size())]);
+}
+
 void Soak::change_scene() {
   if (!may_see_objects_) return;
   disturbed_ = true;
@@ -308,6 +321,8 @@ void Soak::restart() {
 void Soak::settle() {
   (void)executive().scene().remove("ball");
   resume_all(executive());
+  executive().set_speed(std::nullopt, 1.0);
+  for (std::uint32_t arm = 0; arm < arms_.size(); ++arm) executive().set_speed(ArmId{arm}, 1.0);
   const TimePoint latest = simulation_->now() + 3600s;
   while (!executive().all_ended() && !simulation_->settled() && simulation_->now() < latest) {
     simulation_->pass_over_rest(latest);
@@ -324,6 +339,7 @@ void Soak::run(SoakTally& tally, bool expects) {
   const std::size_t commands = 30 + random_.index(60);
   for (std::size_t i = 0; i < commands; ++i) {
     command();
+    if (slows_ && random_speed_.chance(0.4)) change_speed();
     simulation_->run_until(simulation_->now() + from_seconds(random_.uniform(0.0, 1.5)));
   }
   settle();

@@ -28,11 +28,13 @@ struct SoakTally {
 // - jobs with trajectories, goals, alternatives and moves to their start, for one arm or several,
 //   and batches;
 // - cancel, stop, resume, replan, PATCH and policy changes;
-// - objects, faults and restarts.
+// - objects, faults and restarts;
+// - with `slows`, changes of the speed override.
 class Soak {
  public:
   enum class World { sliders, pandas };
-  Soak(std::uint64_t seed, World world, const std::string& policy);
+  // With `slows`, the speed override changes at random, too.
+  Soak(std::uint64_t seed, World world, const std::string& policy, bool slows = false);
   ~Soak();
 
   // Runs and adds the results to the tally. With `expects`, a broken promise fails the test.
@@ -60,12 +62,15 @@ class Soak {
   void submit(JobRequest request);
   void note(const Result<JobView>& accepted, const JobRequest& request);
   void command();
+  void change_speed();
   void change_scene();
   void inject();
   void restart();
   void settle();
 
   Random random_;
+  Random random_speed_;  // apart, so that a seed gives the same commands
+  bool slows_;
   std::string policy_;
   CellPtr cell_;
   std::vector<Arm> arms_;

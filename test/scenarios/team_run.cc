@@ -149,10 +149,10 @@ void TeamsRun::command() {
     case 15:
     case 16:
       say("resume " + name);
-      return executive().resume({arm});
+      return static_cast<void>(executive().resume({arm}));
     case 17:
       say("resume all");
-      return resume_all(executive());
+      return static_cast<void>(resume_all(executive()));
     case 18:
       if (may_see_objects_) change_scene();
       return;

@@ -42,6 +42,22 @@ TEST_F(RemoteCommand, ShowsJobsAndStopsArms) {
   EXPECT_EQ(json::parse(ask(port, "events --count 1 --json").out)["type"], "snapshot");
 }
 
+TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  EXPECT_EQ(ask(port, "speed 0.5").out, "speed override of the cell: 50 %\n");
+  EXPECT_EQ(ask(port, "speed 0.25 --arm left").out,
+            "speed override of arm left: 25 %; with the cell's: 12.5 %\n");
+  EXPECT_EQ(ask(port, "speed").out, "speed override of the cell: 50 %\n");
+  EXPECT_EQ(json::parse(ask(port, "speed --arm right --json").out)["effective_speed_override"],
+            0.5);
+  const auto refused = ask(port, "speed 2");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("/speed_override: a speed override is 0, or from 0.001 to 1"),
+            std::string::npos)
+      << refused.err;
+}
+
 TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
   const test::ServeProcess server({"--cell", test::kCell}, log());
   const auto outcome = ask(server.port(), "stop lfet left right");

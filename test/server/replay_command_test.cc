@@ -62,6 +62,8 @@ class ReplayCommand : public test::CommandFixture {
              {"xyz", {0, 2, 0.1}}}}}});
     call("POST", "/stop", nullptr);
     call("POST", "/resume", nullptr);
+    call("PUT", "/speed", {{"speed_override", 0.7}});
+    call("PUT", "/arms/left/speed", {{"speed_override", 0.6}});
     call("PUT", "/sim/speed", {{"speed", 20}});
     const json goal = ended(server.port(), "goal");
     EXPECT_EQ(goal["state"], "succeeded") << goal.dump();

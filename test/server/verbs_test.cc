@@ -61,6 +61,38 @@ TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   expect_refused(put("/api/v1/sim/speed", "{}"), 422, "/speed", nullptr);
 }
 
+TEST_F(Verbs, SpeedOverrideAppliesInMotion) {
+  start(5.0);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, kAside).dump()).status, 202);
+  until(listener, "l", "running");
+  const auto cell = put("/api/v1/speed", R"({"speed_override": 0.5})");
+  ASSERT_EQ(cell.status, 200) << cell.body;
+  EXPECT_EQ(cell.json(), json({{"speed_override", 0.5}}));
+  EXPECT_EQ(get("/api/v1/speed").json(), cell.json());
+  const auto left = put("/api/v1/arms/left/speed", R"({"speed_override": 0})");
+  ASSERT_EQ(left.status, 200) << left.body;
+  EXPECT_EQ(left.json(),
+            json({{"name", "left"}, {"speed_override", 0.0}, {"effective_speed_override", 0.0}}));
+  const json paused = until(listener, "l", "paused");
+  EXPECT_EQ(paused["waits_on"][0]["kind"], "speed") << paused;
+  EXPECT_EQ(paused["waits_on"][0]["arm"], "left");
+  EXPECT_EQ(get("/api/v1/arms/right").json()["effective_speed_override"], 0.5);
+  EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
+  EXPECT_EQ(put("/api/v1/arms/left/speed", R"({"speed_override": 1})").status, 200);
+  until(listener, "l", "succeeded");
+  for (const char* path : {"/api/v1/speed", "/api/v1/arms/left/speed"}) {
+    for (const char* share : {"-0.1", "1.5", "0.0001"}) {
+      expect_refused(put(path, std::string(R"({"speed_override": )") + share + "}"), 422,
+                     "/speed_override", std::stod(share));
+    }
+    expect_refused(put(path, "{}"), 422, "/speed_override", nullptr);
+  }
+  EXPECT_EQ(get("/api/v1/speed").json()["speed_override"], 0.5);
+  expect_refused(put("/api/v1/arms/middle/speed", R"({"speed_override": 1})"), 404,
+                 "request target", "middle");
+}
+
 TEST_F(Verbs, InvalidFaultsAreRefusedWithPlaceAndValue) {
   start(1.0);
   const std::string faults = "/api/v1/sim/faults";

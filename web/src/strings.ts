@@ -132,6 +132,15 @@ export const kText = {
     missed: 'Some events were missed while the connection was lost.',
   },
 
+  // The sliders of the speed override.
+  speed: {
+    of_cell: 'Speed override',
+    of_arm: (name: string) => `Speed override of ${name}`,
+    short: 'Override',
+    effective: (percent: string) => ` → ${percent}`,
+    title: 'Largest share of the planned speed; applies at once, also in motion. At 0 % arms rest on their paths. Not a stop.',
+  },
+
   arm: {
     arms: 'Arms',
     unknown: 'The cell has no arm with this name.',
@@ -747,6 +756,7 @@ export const kText = {
     for_resume: (who: string, detail: string) => `waits for resume: ${who} is stopped${detail === '' ? '' : ` (${detail})`}`,
     the_cell: 'the cell',
     guard: (detail: string) => `blocked by the ${detail}`,
+    for_speed: (who: string) => `rests until the speed override of ${who} is raised above 0 %`,
     against: (who: string) => `against ${who}`,
     against_because: (who: string, how: string) => `against ${who}: ${how}`,
     arm: (name: string) => `arm ${name}`,
@@ -768,12 +778,14 @@ export const kText = {
     until_moved: (object: string) => `until ${object} is moved`,
     until_clear: (arm: string) => `until ${arm} moves away`,
     until_resumed: 'until its arm is resumed',
+    until_faster: 'until the speed override is raised',
     short: 'waiting',
     short_for: (who: string) => `waits for ${who}`,
     short_resume: 'waits for resume',
     short_plan: 'waits for its path',
     short_check: 'is being checked',
     short_guard: 'blocked by the authority guard',
+    short_speed: 'speed override is 0 %',
     past: (words: string, duration: string) => `${words} (${duration})`,
     was_waiting: 'waited',
   },
@@ -862,6 +874,7 @@ export const kText = {
     resume: 'Resume',
     stop_arm: (name: string) => `Stop ${name}`,
     resume_arm: (name: string) => `Resume ${name}`,
+    speed: (arm: string | null) => (arm === null ? 'The speed override of the cell' : `The speed override of ${arm}`),
     policy: (policy: string) => `The policy ${policy}`,
     send: (arm: string, state: string) => `Send ${arm} to ${state}`,
     job_name: (arm: string, state: string) => `${arm} to ${state}`,

@@ -75,6 +75,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'check': return words.checked(Math.round(100 * (w.progress ?? 0)));
     case 'stop': return words.for_resume(w.arm ?? words.the_cell, w.detail ?? '');
     case 'guard': return words.guard(String(w.detail));
+    case 'speed': return words.for_speed(w.arm === null ? words.the_cell : shown_name(w.arm));
   }
 }
 
@@ -99,6 +100,7 @@ export function until_in_words({ waits_on: [first] }: Pick<Job, 'waits_on'>): st
     case 'object': return words.until_moved(subject(first));
     case 'arm': return words.until_clear(subject(first));
     case 'stop': return words.until_resumed;
+    case 'speed': return words.until_faster;
     default: return '';
   }
 }
@@ -184,6 +186,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'capacity': return words.free_slot;
     case 'predecessor': return first.id === null ? words.turn : words.behind(short_id(first.id));
     case 'guard': return words.short_guard;
+    case 'speed': return words.short_speed;
   }
 }
 

@@ -51,12 +51,15 @@ class Judgement {
     runners_.reserve(question.candidates.size() + question.others.size());
     for (const Motion& motion : question.candidates) add(motion, true);
     for (const Motion& motion : question.others) add(motion, false);
+    for (const Runner& runner : runners_) fastest_ = std::max(fastest_, runner.motion->share);
   }
 
   Verdict run() {
     Duration end = Duration::zero();
     for (const Runner& runner : runners_) {
-      if (!stays(*runner.motion)) end = std::max(end, runner.motion->remaining());
+      if (stays(*runner.motion)) continue;
+      const Duration remaining = runner.motion->remaining();
+      end = std::max(end, from_seconds(to_seconds(remaining) / rate_of(*runner.motion)));
     }
     Verdict verdict{Verdict::Kind::free, question_.version, {}, std::nullopt, 0};
     for (Duration t = Duration::zero();; t = std::min(t + step_, end)) {
@@ -75,8 +78,14 @@ class Judgement {
 
  private:
   [[nodiscard]] bool stays(const Motion& motion) const {
-    return motion.stands == Motion::Stands::stays ||
+    return motion.stands == Motion::Stands::stays || rate_of(motion) == 0.0 ||
            (stay_ && motion.stands == Motion::Stands::may_stay);
+  }
+
+  // Time is scaled so that the fastest motion has rate one: then a step takes no motion farther
+  // than without speed override.
+  [[nodiscard]] double rate_of(const Motion& motion) const {
+    return fastest_ > 0.0 ? motion.share / fastest_ : 0.0;
   }
 
   void add(const Motion& motion, bool candidate) {
@@ -95,7 +104,10 @@ class Judgement {
   bool advance(Duration t, bool first) {
     bool any = false;
     for (Runner& runner : runners_) {
-      const Duration ahead = stays(*runner.motion) ? Duration::zero() : t;
+      const double rate = rate_of(*runner.motion);
+      const Duration ahead = stays(*runner.motion) ? Duration::zero()
+                             : rate == 1.0         ? t
+                                                   : from_seconds(to_seconds(t) * rate);
       const Duration progress = std::clamp(runner.motion->progress + ahead, Duration::zero(),
                                            runner.motion->trajectory->duration());
       runner.moved = first || progress != runner.progress;
@@ -189,6 +201,7 @@ class Judgement {
   const Question& question_;
   const bool stay_;
   const Duration step_;
+  double fastest_ = 0.0;  // largest Motion::share
   ClearanceQuery& query_;
   const Cell& cell_;
   Configuration q_;

@@ -24,7 +24,7 @@ double arrival_of(const State& state, const Job& job, const Prediction& predicti
   }
   for (JobId id : state.jobs.queues()[arm]) {
     const Job& before = state.jobs.at(id).job;
-    if (before.is_waiting()) then += before.trajectory->duration();
+    if (before.is_waiting()) then += state.time_for(*before.trajectory);
     if (id == job.id) break;
   }
   return to_seconds(then);
@@ -46,11 +46,11 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
     comes_to(*admitted.trajectory, prediction.ends[m]);
     in_front.push_back(&admitted);
   }
-  std::vector<Duration> behind = state.jobs.queues().work_but(in_front);
+  std::vector<Duration> behind = work_behind(state, in_front);
   if (prediction.ends.size() > motions.size()) {
     comes_to(*job.trajectory, prediction.ends.back());
   } else {
-    for (ArmId arm : job.trajectory->arms()) behind[arm.index()] += job.trajectory->duration();
+    for (ArmId arm : job.trajectory->arms()) behind[arm.index()] += state.time_for(*job.trajectory);
   }
   double last = 0.0, sum = 0.0;
   for (std::size_t arm = 0; arm < ends.size(); ++arm) {
@@ -71,7 +71,8 @@ std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict)
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
   prepare_choice(state, {job});
   const Job& candidate = state.jobs.at(job).job;
-  const PassingOrders orders = orders_with(state, {as_candidate(candidate)}, verdict.regions);
+  const PassingOrders orders =
+      orders_with(state, {as_candidate(state, candidate)}, verdict.regions);
   if (!orders.blockers.empty()) return std::nullopt;
   return cost_of(state, candidate, orders.prediction);
 }
@@ -183,7 +184,7 @@ void Choosing::note(State& state, std::size_t best) const {
   }
   if (const auto first = options_.front().job; first != taker.job.id) {
     auto& overtaken_at = state.jobs.at(first).overtaken_at;
-    if (!overtaken_at) overtaken_at = state.now;
+    if (!overtaken_at) overtaken_at = state.clock();
   }
   if (rated_[best].cost && rated_.front().cost) {
     choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);

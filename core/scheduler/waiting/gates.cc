@@ -109,9 +109,9 @@ void add_lets_pass(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed stop(const Turns& turns, const Record& record) {
-  auto stop = turns.state().arms.stop_of(record.job);
-  if (!stop) return std::nullopt;
-  return FoundWaits(std::move(*stop));
+  auto wait = operator_wait(turns.state(), record.job);
+  if (!wait) return std::nullopt;
+  return FoundWaits(std::move(*wait));
 }
 
 Closed place(const Turns& turns, const Record& record) {
@@ -141,8 +141,9 @@ bool may_go(const State& state, const Record& record) {
   const Job& job = record.job;
   if (!stands(state, record)) return true;
   return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
-         job.after.empty() && !lets_another_pass(state.jobs, record) && !state.arms.stop_of(job) &&
-         !state.policy->place_taken_by(state, record) && !any_is_aged(state);
+         job.after.empty() && !lets_another_pass(state.jobs, record) &&
+         !operator_wait(state, job) && !state.policy->place_taken_by(state, record) &&
+         !any_is_aged(state);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
@@ -188,7 +189,7 @@ struct Gate {
   Closed (*closed)(const Turns&, const Record&);
   // Adds whom this makes a job that stands wait for. Null if the gate opens without another job:
   //   plan   the planner answers
-  //   stop   an operator resumes the arm
+  //   stop   an operator resumes the arm, or raises its speed override
   //   aging  the older job, and all that goes first for it, is held back by nobody younger
   void (*edges)(const State&, const Record&, Edges&) = nullptr;
   // Is passed by a job that has its turn on another arm (Submit::alternatives).

@@ -24,7 +24,8 @@ bool may_change_places(const Record& record) {
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {
-  return record.overtaken_at && state.now - *record.overtaken_at >= state.cell->scheduling.aging;
+  return record.overtaken_at &&
+         state.clock() - *record.overtaken_at >= state.cell->scheduling.aging;
 }
 
 std::vector<Option> in_any_order(const State& state, const Record& turn) {

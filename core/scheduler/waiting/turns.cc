@@ -5,6 +5,7 @@
 #include <ranges>
 #include <utility>
 
+#include "core/jobs/standing.h"
 #include "core/policies/policy.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
@@ -14,9 +15,8 @@ namespace armloom {
 namespace {
 
 bool is_aged(const State& state, const Record& record) {
-  return record.job.in<Queued>() != nullptr && record.ages_from &&
-         state.now - *record.ages_from >= state.cell->scheduling.aging &&
-         is_at_head(state.jobs, record) && !state.arms.stop_of(record.job);
+  return record.job.in<Queued>() != nullptr && state.has_aged(record) &&
+         is_at_head(state.jobs, record) && !operator_wait(state, record.job);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
@@ -24,7 +24,7 @@ bool is_aged(const State& state, const Record& record) {
 bool waits_beyond_turns(const State& state, const Record& record) {
   if (!record.job.ring.empty()) return true;
   if (!is_at_head(state.jobs, record)) return false;
-  if (state.arms.stop_of(record.job)) return true;
+  if (operator_wait(state, record.job)) return true;
   if (!record.job.is_waiting() || !state.is_judged(record.job)) return false;
   return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
@@ -85,8 +85,8 @@ std::vector<Turns::Aged> Turns::aged_jobs() const {
     aged.push_back({queue.front(), {}});
   }
   if (aged.empty()) return aged;
-  std::ranges::sort(aged, {},
-                    [&](const Aged& a) { return std::pair(*jobs.at(a.job).ages_from, a.job); });
+  std::ranges::sort(
+      aged, {}, [&](const Aged& a) { return std::pair(jobs.at(a.job).ages_from->clock, a.job); });
   const auto again = std::ranges::unique(aged, {}, &Aged::job);  // a job of several arms
   aged.erase(again.begin(), again.end());
   const WaitsFor graph = waits_for(state_);
@@ -175,7 +175,7 @@ Turns explain_waits(State& state) {
       continue;
     }
     if (closed && closed->kind == GateKind::place && !record.ages_from) {
-      record.ages_from = state.now;
+      record.ages_from = {state.now, state.clock()};
     }
     // An open job is about to be judged: until then it waits for what was found the last time.
     state.jobs.set_waits(record, closed ? closed->waits.all() : record.job.judgement().found);

@@ -80,7 +80,7 @@ bool goes_before_open_arm(State& state, const WaitCycle& ring) {
 
 bool one_expires(const State& state, const WaitCycle& ring) {
   return std::ranges::any_of(
-      ring, [&](JobId id) { return expiry_of(state.jobs.at(id).job).has_value(); });
+      ring, [&](JobId id) { return expiry_of(state, state.jobs.at(id).job).has_value(); });
 }
 
 bool is_asked(const State& state, const WaitCycle& ring) {

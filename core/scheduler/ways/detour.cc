@@ -37,7 +37,7 @@ TimePoint soonest(const State& state, const Job& job, const PassingOrders& order
     if (std::ranges::find(arms, arm) != arms.end())
       ready = std::max(ready, orders.prediction.ends[m]);
   }
-  return state.now + ready + job.trajectory->duration();
+  return state.now + ready + state.time_for(*job.trajectory);
 }
 
 // From when to when of its own time the other motion is in the way there.
@@ -164,7 +164,7 @@ void take_detour(State& state, const PlanMade& answer) {
   if (!may_go_round(*record)) return;
   const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.scene_epoch &&
                     answer.trajectory->start().isApprox(detour.best->start());
-  const bool is_sooner = fits && state.now + answer.trajectory->duration() < detour.arrives;
+  const bool is_sooner = fits && state.now + state.time_for(*answer.trajectory) < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.
   if (fits && !is_sooner && goes_on(detour)) return ask(state, *record);
   if (!is_sooner) return (void)go_by_best(state, *record);

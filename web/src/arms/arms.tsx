@@ -13,11 +13,13 @@ import { shown_name } from '../names';
 import { reason_in_words, short_id, title_of, until_in_words } from '../wording';
 import { kText } from '../strings';
 import { Bar } from './bar';
+import { SpeedSlider } from './speed_slider';
 
 export function Arms({ app }: { app: App }) {
   const arms = [...app.store.arms.values()];
   return (
     <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label={kText.arm.arms}>
+      <SpeedSlider app={app} arm={null} told={app.store.speed_override} />
       <div class="cards">
         {arms.map((arm) => <ArmCard key={arm.name} arm={arm} app={app} />)}
       </div>
@@ -49,6 +51,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
         {!waiting && <Bar share={progress} />}
       </Link>
       {held && <Waiting job={held} app={app} />}
+      <SpeedSlider app={app} arm={arm.name} told={arm.speed_override ?? 1} effective={arm.effective_speed_override} />
     </div>
   );
 }

@@ -692,7 +692,7 @@ export interface components {
         /** @description A reason to wait, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard";
+            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed";
             /** @description Id of the other job */
             id: string | null;
             /** @description Name of the other arm */
@@ -849,6 +849,8 @@ export interface components {
             policy: string;
             speed: number;
             stopped: boolean;
+            /** @description Speed override of the cell; absent in old recordings */
+            speed_override?: number;
             arms: components["schemas"]["Arm"][];
             /** @description All jobs that have not ended, and the 200 that ended last */
             jobs: components["schemas"]["Job"][];
@@ -877,12 +879,18 @@ export interface components {
             link: "connecting" | "up" | "stale" | "lost";
             /** @description Why the link is not up; null if it is */
             link_detail: string | null;
+            /** @description Speed override of this arm: largest share of the planned speed; absent in old recordings */
+            speed_override?: number;
+            /** @description Override at which the arm moves: cell's override x this arm's. The arms of one motion all move at the smallest of theirs */
+            effective_speed_override?: number;
         };
         QueueIds: {
             /** @description Present policy; absent in old recordings */
             policy?: string;
             /** @description true if every arm is stopped */
             stopped: boolean;
+            /** @description Speed override of the cell; absent in old recordings */
+            speed_override?: number;
             queued: string[];
             backlog: string[];
             scheduled: string[];

@@ -153,6 +153,12 @@ export class Api {
     return this.ask('POST', '/resume');
   }
 
+  /** Sets the speed override of an arm, or of the cell if `arm` is null. */
+  set_speed_override(arm: string | null, share: number): Promise<Answer<unknown>> {
+    const path = arm === null ? '/speed' : `/arms/${encodeURIComponent(arm)}/speed`;
+    return this.ask('PUT', path, JSON.stringify({ speed_override: share }));
+  }
+
   stop_arm(name: string): Promise<Answer<unknown>> {
     return this.ask('POST', `/arms/${encodeURIComponent(name)}/stop`);
   }

@@ -7,6 +7,7 @@ import type { Timers } from '../server/connection';
 import { follow_job } from '../server/follow_job';
 import type { Problem, SceneObject } from '../server/messages';
 import { kText } from '../strings';
+import { SpeedOverride } from './speed_override';
 import type { Store } from './store';
 
 const kWords = kText.command;
@@ -16,11 +17,15 @@ export class Actions {
   readonly refusal = signal<string | null>(null);
   /** True while a stop is sent and not answered yet. */
   readonly stopping = signal(false);
+  /** The speed override that the user sets. */
+  readonly speed: SpeedOverride;
 
   constructor(
     private readonly api_: Api, private readonly store_: Store, private readonly timers_: Timers,
     readonly retry_connection: () => void,
-  ) {}
+  ) {
+    this.speed = new SpeedOverride((arm, share) => this.ask(kWords.speed(arm), this.api_.set_speed_override(arm, share)), timers_);
+  }
 
   /** Polls a job until it ends or the returned function is called. */
   follow_job(id: string): () => void {

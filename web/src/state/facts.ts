@@ -23,6 +23,8 @@ export class Facts {
   policy = '';
   speed = 1;
   stopped = false;
+  /** Speed override of the cell, 0 to 1. */
+  speed_override = 1;
   t_s = 0;
   /**
    * The objects of the scene. Each change of the scene is a new array, which tells the 3D view to
@@ -69,6 +71,7 @@ export class Facts {
       case 'queue':
         this.policy = message.data.policy ?? this.policy;
         this.stopped = message.data.stopped;
+        this.speed_override = message.data.speed_override ?? 1;
         this.book.set_order(message.data);
         break;
       case 'scene':
@@ -110,7 +113,8 @@ export class Facts {
     const moves = job.state === 'running' && job.arms.every((arm) => !kAtRest.has(this.arms.get(arm)?.state ?? 'moving'));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
-    return Math.min(1, job.progress + since_report / job.duration_s);
+    const share = Math.min(1, ...job.arms.map((arm) => this.arms.get(arm)?.effective_speed_override ?? 1));
+    return Math.min(1, job.progress + (since_report * share) / job.duration_s);
   }
 
   /** Returns the state of the arm as the page shows it. */
@@ -165,6 +169,7 @@ export class Facts {
     this.policy = data.policy;
     this.speed = data.speed;
     this.stopped = data.stopped;
+    this.speed_override = data.speed_override ?? 1;
     this.objects = data.objects;
     // In a past state, arms that the snapshot does not contain stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);

@@ -1,0 +1,72 @@
+#include "core/scheduler/setting_speed.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/jobs/standing.h"
+#include "core/jobs/timeline.h"
+#include "core/scheduler/authority.h"
+#include "core/scheduler/weighing.h"
+#include "core/scheduler/without_orders.h"
+
+namespace armloom {
+namespace {
+
+// The pace is measured anew, and a time at rest at share 0 is no standstill.
+void renew_clocks(const State& state, Job& job, bool rested) {
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving == nullptr) return;
+  moving->overrun_at = overrun_after(state, job);
+  moving->goes_since = state.now;
+  moving->goes_from = job.progress;
+  if (rested) moving->moved_at = state.now;
+}
+
+void renew_starts(State& state) {
+  for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
+    Record& record = state.jobs.at(leg.job);
+    const bool is_to_start = record.job.in<Admitted>() != nullptr && !record.job.has_started();
+    if (!is_to_start || !leg.starts || record.job.times.scheduled_at == leg.starts) continue;
+    record.job.times.scheduled_at = leg.starts;
+    state.jobs.changed(record);
+  }
+}
+
+}  // namespace
+
+void set_speed(State& state, const SetSpeed& input) {
+  if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
+  const SpeedOverride before = state.speed;
+  state.speed.set(input.arm, input.share, state.now);
+  ++state.version;  // an answer that is under way shall start nothing at share 0
+  const std::vector<JobId> ids = state.jobs.past_queue();
+  for (JobId id : ids) {
+    Job& job = state.jobs.at(id).job;
+    const auto& arms = job.trajectory->arms();
+    if (before.effective(arms) == state.speed.effective(arms)) continue;
+    renew_clocks(state, job, before.effective(arms) == 0.0);
+  }
+  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
+    explain_again(state, ArmId{arm});
+  }
+  prepare_choice(state, {});
+  state.expected.spoil();
+  renew_starts(state);
+  compare_again(state);
+}
+
+void explain_again(State& state, ArmId arm) {
+  for (JobId id : state.jobs.queues()[arm]) {
+    Record& record = state.jobs.at(id);
+    const auto is_of_operator = [](const Wait& wait) {
+      return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
+    };
+    const auto wait = operator_wait(state, record.job);
+    const bool waited = std::ranges::any_of(record.job.waits_on, is_of_operator);
+    if (waited && wait) state.jobs.set_wait(record, *wait);
+    if (waited && !wait) state.jobs.set_waits(record, {});
+    if (waited || wait) state.jobs.explain(record);
+  }
+}
+
+}  // namespace armloom
