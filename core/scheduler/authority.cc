@@ -6,13 +6,11 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 #include "core/scheduler/motion_questions.h"
 
 namespace armloom {
 namespace {
-
-// Authority is extended by no less than this, but for the last bit.
-constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 
 void explain_pause(State& state, Record& record) {
   const auto held = state.graph.held_back(record.job.id);
@@ -23,7 +21,8 @@ void explain_pause(State& state, Record& record) {
 TimePoint overrun_after(const State& state, const Job& job) {
   const double remaining_s = to_seconds(job.trajectory->duration() - job.progress);
   return state.now + from_seconds(remaining_s * state.cell->execution.duration_scaling) +
-         state.cell->execution.duration_margin;
+         promises_of(*state.cell, job.trajectory->arms())
+             .overrun_margin(state.cell->execution.duration_margin);
 }
 
 void pause_at_rest(State& state, Record& record) {

@@ -21,12 +21,13 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
     const bool weighs = state.policy->weighs_again();
-    const Duration stands = weighs ? stood_for(record.job, state.now) : Duration{};
+    const Duration stands = weighs ? stood_for(*state.cell, record.job, state.now) : Duration{};
     const bool is_aged =
         record.ages_from && state.now - *record.ages_from >= state.cell->scheduling.aging;
-    state.graph.set_outlook(motion.job, {.keeps_its_place = is_aged && stands <= Duration{},
-                                         .stands_for = stands,
-                                         .pace = weighs ? pace_of(record.job, state.now) : 1.0});
+    state.graph.set_outlook(motion.job,
+                            {.keeps_its_place = is_aged && stands <= Duration{},
+                             .stands_for = stands,
+                             .pace = weighs ? pace_of(*state.cell, record.job, state.now) : 1.0});
     in_front.push_back(&record.job);
   }
   state.graph.set_work_behind(state.jobs.queues().work_but(in_front));
