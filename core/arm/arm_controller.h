@@ -9,6 +9,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/model/promises.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -117,8 +118,5 @@ class ArmController {
   // for tests and recordings: no decision may depend on them.
   [[nodiscard]] virtual const Eigen::VectorXd* true_positions() const { return nullptr; }
 };
-
-// Period of the executive's control cycle, and of a simulated arm's.
-inline constexpr Duration kControlPeriod = std::chrono::milliseconds(1);
 
 }  // namespace armloom

@@ -29,6 +29,11 @@ std::vector<ArmId> arms_in_question(const SceneFingerprint& before, const SceneF
   return arms;
 }
 
+double CertifiedSide::error_of(ArmId arm) const {
+  const auto at = std::ranges::find(arms, arm);
+  return at == arms.end() ? 0.0 : errors[static_cast<std::size_t>(at - arms.begin())];
+}
+
 PairCertificate turned(const PairCertificate& pair) {
   PairCertificate result{pair.b, pair.a, {}, pair.geometry};
   for (const ProgressBox& box : pair.blocked) {

@@ -37,13 +37,16 @@ struct SceneFingerprint {
                                                   const SceneFingerprint& now);
 
 // One side of a proof: the arms of one motion, or one resting arm. The proof assumes that each
-// joint is at most `error` (rad, m) from its position on the motion or at rest.
+// joint is at most its arm's error (rad, m) from its position on the motion or at rest.
 struct CertifiedSide {
-  std::vector<ArmId> arms;  // ascending
-  TrajectoryPtr motion;     // null if the arm rests
-  Duration from{};          // valid from this progress on
-  double error = 0.0;
+  std::vector<ArmId> arms;                        // ascending
+  TrajectoryPtr motion;                           // null if the arm rests
+  Duration from{};                                // valid from this progress on
+  std::vector<double> errors = {};                // by index in `arms`
   std::vector<std::pair<JointId, double>> still;  // positions of the arms' joints that do not move
+
+  // Returns the error of one of the arms; zero for any other arm.
+  [[nodiscard]] double error_of(ArmId arm) const;
 };
 
 // Proves that two sides keep their clearance at all combinations of positions on their motions,

@@ -5,6 +5,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/tracking_errors.h"
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
@@ -45,7 +46,7 @@ struct Drawing {
   TrajectoryPtr a;
   TrajectoryPtr b;
   Configuration rest;  // positions of the joints that are in neither motion
-  double tracking_error;
+  TrackingErrors tracking_errors;
   Duration resolution;
   std::uint64_t budget;  // cells per pair of arms
 };

@@ -7,6 +7,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/tracking_errors.h"
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
@@ -21,7 +22,7 @@ struct Motion {
   Duration progress;
   bool to_come = false;  // Coordinated only: its arm executes another motion first
   // Largest distance of a joint from the path when the motion starts or resumes (rad, m). Certified
-  // methods use the larger value of off_path and their tracking error.
+  // methods use, for each arm, the larger value of off_path and its tracking error.
   double off_path = 0.0;
   // Used only by TimedDiscrete, because there no passing orders protect a paused motion.
   enum class Stands : std::uint8_t {
@@ -44,20 +45,20 @@ struct TimedDiscrete {
 // Ignores times: checks the whole remainder of each motion against the whole remainder of every
 // other motion.
 struct Swept {
-  double tracking_error;  // of each joint from its path (rad, m)
+  TrackingErrors tracking_errors;
 };
 // Ignores times: finds the states of each pair that are not certified free (Verdict::regions). An
 // arm may have several motions, in execution order, each starting at the end of the previous
 // motion.
 struct Coordinated {
-  double tracking_error;
+  TrackingErrors tracking_errors;
 };
 using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
-// Returns the tracking error of each joint (rad, m); zero if the method has none.
-[[nodiscard]] inline double tracking_error_of(const CheckMethod& method) {
-  if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
+// Returns the tracking errors; zero if the method has none.
+[[nodiscard]] inline TrackingErrors tracking_errors_of(const CheckMethod& method) {
+  if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_errors;
   const auto* coordinated = std::get_if<Coordinated>(&method);
-  return coordinated != nullptr ? coordinated->tracking_error : 0.0;
+  return coordinated != nullptr ? coordinated->tracking_errors : 0.0;
 }
 
 // Asks if a motion is free, from its progress on, while another arm rests at `rest`.

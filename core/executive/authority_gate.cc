@@ -11,13 +11,14 @@ namespace {
 
 using Why = GuardRefusal::Why;
 
-std::vector<std::vector<JointId>> joints_by_arm(const Cell& cell) {
-  std::vector<std::vector<JointId>> joints;
+std::vector<AuthorityGuard::GuardedArm> guarded_arms(const Cell& cell) {
+  std::vector<AuthorityGuard::GuardedArm> arms;
   for (const Arm& arm : cell.arms) {
-    joints.push_back(arm.joints);
-    joints.back().insert(joints.back().end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
+    const Promises promises = promises_of(cell.robots[arm.robot.index()].controller);
+    std::vector<JointId>& joints = arms.emplace_back(arm.joints, promises.report_age()).joints;
+    joints.insert(joints.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
   }
-  return joints;
+  return arms;
 }
 
 bool is_at_rest(ArmFeedback::Phase phase) {
@@ -30,7 +31,7 @@ bool is_at_rest(ArmFeedback::Phase phase) {
 AuthorityGate::AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls)
     : cell_(std::move(cell)),
       motions_(motions),
-      guard_(joints_by_arm(*cell_), motions.measured(), std::move(present)),
+      guard_(guarded_arms(*cell_), motions.measured(), std::move(present)),
       calls_(std::move(calls)),
       jobs_(cell_->arms.size()) {}
 
@@ -182,7 +183,7 @@ Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
                     .candidates = {},
                     .others = {},
                     .rest = guard_.rest(),
-                    .method = Coordinated{cell_->checking.tracking_error_rad}};
+                    .method = Coordinated{TrackingErrors(*cell_)}};
   std::map<JobId, Motion> others;
   for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
     const ArmPosition& position = guard_.position(ArmId{a});

@@ -75,7 +75,7 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
   Drawing drawing{.a = motion_a,
                   .b = motion_b,
                   .rest = scheduler_.rest(),
-                  .tracking_error = cell.checking.tracking_error_rad,
+                  .tracking_errors = TrackingErrors(cell),
                   .resolution = kResolution,
                   .budget = kCells};
   Drawn remembered{motion_a, motion_b, scheduler_.rest(), scene_version, {}};

@@ -275,7 +275,7 @@ void Executive::Impl::locate(ArmId arm) {
   joints.insert(joints.end(), cell_->arm(arm).gripper_joints.begin(),
                 cell_->arm(arm).gripper_joints.end());
   const Eigen::VectorXd off = link.feedback().measured - joints_of(scheduler_.rest(), joints);
-  if (off.cwiseAbs().maxCoeff() <= cell_->checking.tracking_error_rad) return;
+  if (off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot)) return;
   step(Located{arm, link.feedback().measured});
 }
 

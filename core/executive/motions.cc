@@ -35,7 +35,8 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
   motion.resting = motion.braking = false;
   motion.handed_on = dispatch.authority;
   if (trajectory->arms().size() > 1) {
-    motion.ahead_max = kOutOfStep + from_seconds(stopping_reach_s(*cell_, *trajectory));
+    motion.out_of_step = out_of_step(*cell_, *trajectory);
+    motion.ahead_max = motion.out_of_step + from_seconds(stopping_reach_s(*cell_, *trajectory));
     motion.handed_on = std::min(dispatch.authority, dispatch.from_progress + motion.ahead_max);
   }
   if (trajectory->arms().size() > 1) pass_on_speed(trajectory->arms());
@@ -135,11 +136,11 @@ void Motions::keep_together(Motion& motion) {
   }
   // In steps, as an arm plans its brake anew for each one.
   const Duration reach = last + motion.ahead_max;
-  if (reach >= motion.authority || reach - motion.handed_on >= kOutOfStep / 2) {
+  if (reach >= motion.authority || reach - motion.handed_on >= motion.out_of_step / 2) {
     motion.handed_on = std::min(reach, motion.authority);
   }
   for (ArmId arm : motion.trajectory->arms()) {
-    const bool ahead = feedback(arm).commanded_progress - last > kOutOfStep;
+    const bool ahead = feedback(arm).commanded_progress - last > motion.out_of_step;
     command(arm, ArmCommand::Extend{ahead ? std::min(last, motion.handed_on) : motion.handed_on});
   }
 }

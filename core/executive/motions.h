@@ -15,9 +15,9 @@ namespace armloom {
 
 // Sends a job's trajectory to the controllers of its arms and joins their feedback into one report:
 // the progress of the last arm, and one end. If one arm faults, the other arms of the motion are
-// braked. An arm that leads by more than kOutOfStep waits on the path. Authority never exceeds the
-// last known progress of the last arm by more than kOutOfStep plus the stopping reach, so the arms
-// stay together even if feedback is lost.
+// braked. An arm that leads by more than out_of_step() (core/coordination/in_step.h) waits on the
+// path. Authority never exceeds the last known progress of the last arm by more than out_of_step()
+// plus the stopping reach, so the arms stay together even if feedback is lost.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -68,6 +68,7 @@ class Motions {
     Duration authority{};
     // For motions of several arms: largest lead of an arm's authority over the last arm.
     Duration ahead_max{};
+    Duration out_of_step{};
     Duration handed_on{};
     bool resting = false;  // its end was reported
     bool braking = false;

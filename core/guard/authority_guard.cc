@@ -26,15 +26,15 @@ void keep_latest(std::vector<T>& all, const T& one, std::size_t most) {
 
 }  // namespace
 
-AuthorityGuard::AuthorityGuard(std::vector<std::vector<JointId>> joints, Configuration rest,
+AuthorityGuard::AuthorityGuard(std::vector<GuardedArm> arms, Configuration rest,
                                SceneFingerprint present)
-    : joints_(std::move(joints)),
+    : arms_(std::move(arms)),
       arm_of_(static_cast<std::size_t>(rest.size())),
       q_(std::move(rest)),
       present_(std::move(present)),
-      positions_(joints_.size()) {
-  for (std::uint32_t arm = 0; arm < joints_.size(); ++arm) {
-    for (const JointId joint : joints_[arm]) arm_of_[joint.index()] = ArmId{arm};
+      positions_(arms_.size()) {
+  for (std::uint32_t arm = 0; arm < arms_.size(); ++arm) {
+    for (const JointId joint : arms_[arm].joints) arm_of_[joint.index()] = ArmId{arm};
   }
 }
 
@@ -133,7 +133,7 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
     position.authority = position.measured;
   }
   position.at_rest = true;
-  for (const JointId joint : joints_[arm.index()]) q_[joint.value()] = measured[joint.value()];
+  for (const JointId joint : arms_[arm.index()].joints) q_[joint.value()] = measured[joint.value()];
   if (position.motion) position.off_path = off(*position.motion, arm, position.measured);
 }
 
@@ -168,9 +168,8 @@ ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, F
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];
   const Duration set_out = from.value_or(Duration{});
-  constexpr Duration kReported = std::chrono::milliseconds(100);  // largest age of a report
   const bool again = from && position.at_rest && motion->arms().size() == 1 &&
-                     set_out < position.measured - kReported;
+                     set_out < position.measured - arms_[arm.index()].report_age;
   if (position.motion != motion || again) position = {motion, set_out, set_out};
   if (position.at_rest) position.off_path = off(*motion, arm, position.measured);
   position.at_rest = false;
@@ -185,16 +184,16 @@ std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSi
   const bool is_still = std::ranges::all_of(side.still, [&](const auto& joint) {
     const auto& [id, at] = joint;
     if (arm_of_[id.index()] && arm_of_[id.index()] != arm) return true;  // another arm's joint
-    return std::abs(q_[id.value()] - at) <= side.error;
+    return std::abs(q_[id.value()] - at) <= side.error_of(arm);
   });
   if (!is_still) return std::nullopt;
   if (!side.motion) return position.at_rest ? std::optional(Interval{}) : std::nullopt;
   if (side.motion == position.motion) {
-    const bool holds = side.from <= position.measured && position.off_path <= side.error;
+    const bool holds = side.from <= position.measured && position.off_path <= side.error_of(arm);
     return holds ? std::optional(Interval{position.measured, position.authority}) : std::nullopt;
   }
   for (const Duration end : {Duration{}, side.motion->duration()}) {
-    if (position.at_rest && side.from <= end && off(*side.motion, arm, end) <= side.error)
+    if (position.at_rest && side.from <= end && off(*side.motion, arm, end) <= side.error_of(arm))
       return Interval{end, end};
   }
   return std::nullopt;

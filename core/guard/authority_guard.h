@@ -11,6 +11,7 @@
 #include "core/coordination/certificate.h"
 #include "core/coordination/guard_refusal.h"
 #include "core/model/cell.h"
+#include "core/model/promises.h"
 
 namespace armloom {
 
@@ -32,9 +33,12 @@ struct ArmPosition {
 // content hash is that of the present content. Pure; not thread-safe.
 class AuthorityGuard {
  public:
-  // `joints`: by ArmId, the joints of each arm and its gripper. `rest`: all joints of the cell.
-  AuthorityGuard(std::vector<std::vector<JointId>> joints, Configuration rest,
-                 SceneFingerprint present);
+  struct GuardedArm {
+    std::vector<JointId> joints;                    // of the arm and its gripper
+    Duration report_age = Promises::kReportAgeMin;  // Promises::report_age
+  };
+  // `arms`: by ArmId. `rest`: all joints of the cell.
+  AuthorityGuard(std::vector<GuardedArm> arms, Configuration rest, SceneFingerprint present);
 
   // ---- Certificates and content ----
   void take(std::span<const Certificate> certificates);
@@ -108,7 +112,7 @@ class AuthorityGuard {
   [[nodiscard]] std::optional<GuardRefusal> together(const Known& known, Duration last,
                                                      Duration first) const;
 
-  std::vector<std::vector<JointId>> joints_;  // by ArmId
+  std::vector<GuardedArm> arms_;              // by ArmId
   std::vector<std::optional<ArmId>> arm_of_;  // by JointId
   Configuration q_;                           // joints as last measured at rest
   SceneFingerprint present_;

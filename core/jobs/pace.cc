@@ -1,11 +1,15 @@
 #include "core/jobs/pace.h"
 
+#include "core/model/promises.h"
+
 namespace armloom {
 namespace {
 
-// The pace of a motion is told from so much of its way, and counts from there on.
-constexpr Duration kPaceFrom = std::chrono::milliseconds(100);
 constexpr double kHardlySlow = 1.1;
+
+Promises promises_for(const Cell& cell, const Job& job) {
+  return promises_of(cell, job.trajectory->arms());
+}
 
 }  // namespace
 
@@ -17,21 +21,23 @@ std::optional<TimePoint> stands_since(const Job& job) {
   return stopped ? std::optional(job.times.measured_at) : std::nullopt;
 }
 
-bool is_standing(const Moving& moving, TimePoint now) {
-  return now - moving.moved_at >= kStandsFrom;
-}
-
-Duration stood_for(const Job& job, TimePoint now) {
-  const auto since = stands_since(job);
-  const Duration stood = since ? now - *since : Duration{};
-  return stood < kStandsFrom ? Duration{} : stood;
-}
-
-double pace_of(const Job& job, double planned, TimePoint now) {
+bool is_standing(const Cell& cell, const Job& job, TimePoint now) {
   const auto* moving = job.in<Moving>();
-  if (moving == nullptr || moving->pause || is_standing(*moving, now)) return planned;
+  return moving != nullptr && now - moving->moved_at >= promises_for(cell, job).stands_from();
+}
+
+Duration stood_for(const Cell& cell, const Job& job, TimePoint now) {
+  const auto since = stands_since(job);
+  if (!since) return Duration{};
+  const Duration stood = now - *since;
+  return stood < promises_for(cell, job).stands_from() ? Duration{} : stood;
+}
+
+double pace_of(const Cell& cell, const Job& job, double planned, TimePoint now) {
+  const auto* moving = job.in<Moving>();
+  if (moving == nullptr || moving->pause || is_standing(cell, job, now)) return planned;
   const Duration way = job.progress - moving->goes_from;
-  if (way < kPaceFrom) return planned;
+  if (way < promises_for(cell, job).pace_from()) return planned;
   const double pace = to_seconds(moving->moved_at - moving->goes_since) / to_seconds(way);
   return pace < kHardlySlow * planned ? planned : pace;
 }

@@ -30,13 +30,14 @@ class Timetable {
     std::vector<MotionAhead> ahead;
     for (std::size_t m = 0; m < motions_.size(); ++m) {
       const bool is_stopped = held_by(m).has_value();
-      stands_.push_back(is_stopped ? Duration{} : stood_for(job(m), now));
-      ahead.push_back({.progress = motions_[m].progress,
-                       .duration = motions_[m].duration,
-                       .after = chains_.before(m),
-                       .held_at = is_stopped ? motions_[m].progress : motions_[m].held_at,
-                       .stands_for = stands_[m],
-                       .pace = pace_of(job(m), state.speed.pace(motions_[m].arms), now)});
+      stands_.push_back(is_stopped ? Duration{} : stood_for(*state.cell, job(m), now));
+      ahead.push_back(
+          {.progress = motions_[m].progress,
+           .duration = motions_[m].duration,
+           .after = chains_.before(m),
+           .held_at = is_stopped ? motions_[m].progress : motions_[m].held_at,
+           .stands_for = stands_[m],
+           .pace = pace_of(*state.cell, job(m), state.speed.pace(motions_[m].arms), now)});
     }
     prediction_ = predict(ahead, dependencies_);
   }

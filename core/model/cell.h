@@ -166,6 +166,12 @@ struct Cell {
   [[nodiscard]] const Arm& arm(ArmId id) const { return arms[id.index()]; }
   [[nodiscard]] const Joint& joint(JointId id) const { return joints[id.index()]; }
   [[nodiscard]] const Link& link(LinkId id) const { return links[id.index()]; }
+  // Returns how far a joint of the robot may be from its path (rad, m): the promise of the robot's
+  // controller or, without one, checking.tracking_error_rad.
+  [[nodiscard]] double tracking_error(RobotId robot) const {
+    return robots[robot.index()].controller.tracking_error_rad.value_or(
+        checking.tracking_error_rad);
+  }
   [[nodiscard]] std::optional<ArmId> find_arm(std::string_view arm_name) const;
   [[nodiscard]] std::optional<JointId> find_joint(std::string_view joint_name) const;
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;

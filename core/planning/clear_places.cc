@@ -16,7 +16,7 @@ class Clearing {
       : cell_(scene->cell()),
         way_(way),
         at_(at),
-        states_(scene, way.arm, at, cell_.checking.tracking_error_rad),
+        states_(scene, way.arm, at, TrackingErrors(cell_)),
         motions_(scene) {}
 
   [[nodiscard]] bool is_clear(const Eigen::VectorXd& q) {
@@ -32,7 +32,7 @@ class Clearing {
                                             .candidates = {{JobId{0}, way_.motion, way_.progress}},
                                             .others = {},
                                             .rest = at_,
-                                            .method = Swept{cell_.checking.tracking_error_rad}});
+                                            .method = Swept{TrackingErrors(cell_)}});
     of_motions_ += verdict.evaluations;
     if (verdict.kind == Verdict::Kind::free) return true;
     // Only conflicts with this arm matter, because other conflicts of the motion do not depend on

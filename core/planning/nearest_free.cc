@@ -46,8 +46,7 @@ NearestFree nearest_free(const PlanningScenePtr& scene, const PlanRequest& reque
                          const Eigen::VectorXd& wanted) {
   const Cell& cell = scene->cell();
   const Arm& arm = cell.arm(request.arm);
-  LineChecker states(scene, request.arm, request.at, cell.checking.tracking_error_rad,
-                     request.left_out);
+  LineChecker states(scene, request.arm, request.at, TrackingErrors(cell), request.left_out);
   const Eigen::VectorXd centre = within_limits(cell, arm, wanted);
   if (states.is_free(centre, centre)) return {centre, states.evaluations()};
   std::optional<Eigen::VectorXd> nearest;

@@ -18,13 +18,12 @@ constexpr int kTries = 3;
 
 std::optional<Conflict> found_in_the_way(MotionChecker& checker, const PlanRequest& request,
                                          const TrajectoryPtr& trajectory) {
-  const double tracking_error = checker.scene()->cell().checking.tracking_error_rad;
   const Verdict verdict = checker.judge({.version = 0,
                                          .start_at = TimePoint{},
                                          .candidates = {{JobId{0}, trajectory, Duration{}}},
                                          .others = {},
                                          .rest = request.at,
-                                         .method = Swept{tracking_error}});
+                                         .method = Swept{TrackingErrors(checker.scene()->cell())}});
   if (verdict.kind == Verdict::Kind::free) return std::nullopt;
   if (verdict.conflicts.empty()) return Conflict{Conflict::With::self, JobId{0}, {}, {}, {}, {}};
   // The check also finds conflicts with arms that the request ignores.

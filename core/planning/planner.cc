@@ -77,8 +77,7 @@ class Search {
         cell_(scene->cell()),
         arm_(cell_.arm(request.arm)),
         start_(joints_of(request.at, arm_.joints)),
-        lines_(scene, request.arm, request.at, cell_.checking.tracking_error_rad,
-               request.left_out) {}
+        lines_(scene, request.arm, request.at, TrackingErrors(cell_), request.left_out) {}
 
   tl::expected<JointWay, PlanRefusal> run() {
     if (auto refusal = check_ends()) return refuse(*std::move(refusal));

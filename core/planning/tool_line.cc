@@ -181,7 +181,7 @@ class ToolLine {
 // them at the first point.
 NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
                       const std::vector<Eigen::VectorXd>& points) {
-  LineChecker lines(scene, request.arm, request.at, scene->cell().checking.tracking_error_rad,
+  LineChecker lines(scene, request.arm, request.at, TrackingErrors(scene->cell()),
                     request.left_out);
   std::optional<Eigen::VectorXd> last;
   for (const Eigen::VectorXd& q : points) {

@@ -73,7 +73,7 @@ class ToolSweep {
         tool_(tool),
         turn_(turns()[direction]),
         at_(cell_.home()),
-        lines_(scene, arm, at_, cell_.checking.tracking_error_rad, others()),
+        lines_(scene, arm, at_, TrackingErrors(cell_), others()),
         stands_(cell_.arm(arm).home) {}
 
   // Returns true if the tool reaches this place. The search starts from the last solution.

@@ -9,22 +9,22 @@ namespace {
 
 class CertifiedPolicy final : public Policy {
  public:
-  explicit CertifiedPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+  explicit CertifiedPolicy(const Cell& cell) : tracking_errors_(cell) {}
 
   std::string_view name() const override { return "certified"; }
-  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  CheckMethod method() const override { return Coordinated{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return orders_in_time(question, Duration{});
   }
 
  private:
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_certified(const Cell& cell) {
-  return std::make_unique<CertifiedPolicy>(cell.checking.tracking_error_rad);
+  return std::make_unique<CertifiedPolicy>(cell);
 }
 
 }  // namespace armloom

@@ -11,20 +11,19 @@ namespace {
 class CoordinatedPolicy final : public Policy {
  public:
   explicit CoordinatedPolicy(const Cell& cell)
-      : tracking_error_(cell.checking.tracking_error_rad),
-        horizon_(static_cast<std::size_t>(cell.scheduling.horizon_steps)) {}
+      : tracking_errors_(cell), horizon_(static_cast<std::size_t>(cell.scheduling.horizon_steps)) {}
 
   std::string_view name() const override { return "coordinated"; }
   std::size_t horizon() const override { return horizon_; }
   bool weighs_again() const override { return true; }
   bool admits_groups() const override { return true; }
-  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  CheckMethod method() const override { return Coordinated{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return cheapest_orders(question);
   }
 
  private:
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
   std::size_t horizon_;
 };
 

@@ -19,7 +19,7 @@ bool stands_in_vain(const State& state, const Record& record) {
 
 class LockstepPolicy final : public Policy {
  public:
-  explicit LockstepPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+  explicit LockstepPolicy(const Cell& cell) : tracking_errors_(cell) {}
 
   std::string_view name() const override { return "lockstep"; }
   // A round is over when all of its jobs have ended; until the first of them moves, arms that have
@@ -58,19 +58,19 @@ class LockstepPolicy final : public Policy {
   }
   bool opens_places() const override { return true; }
   bool lets_jobs_age() const override { return false; }  // rounds are fair by themselves
-  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  CheckMethod method() const override { return Coordinated{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return orders_in_time(question, Duration{});
   }
 
  private:
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_lockstep(const Cell& cell) {
-  return std::make_unique<LockstepPolicy>(cell.checking.tracking_error_rad);
+  return std::make_unique<LockstepPolicy>(cell);
 }
 
 }  // namespace armloom

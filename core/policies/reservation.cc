@@ -8,22 +8,22 @@ namespace {
 
 class ReservationPolicy final : public Policy {
  public:
-  explicit ReservationPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+  explicit ReservationPolicy(const Cell& cell) : tracking_errors_(cell) {}
 
   std::string_view name() const override { return "reservation"; }
-  CheckMethod method() const override { return Swept{tracking_error_}; }
+  CheckMethod method() const override { return Swept{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return orders_apart(question);
   }
 
  private:
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_reservation(const Cell& cell) {
-  return std::make_unique<ReservationPolicy>(cell.checking.tracking_error_rad);
+  return std::make_unique<ReservationPolicy>(cell);
 }
 
 }  // namespace armloom

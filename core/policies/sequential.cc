@@ -7,7 +7,7 @@ namespace {
 
 class SequentialPolicy final : public Policy {
  public:
-  explicit SequentialPolicy(double tracking_error) : tracking_error_(tracking_error) {}
+  explicit SequentialPolicy(const Cell& cell) : tracking_errors_(cell) {}
 
   std::string_view name() const override { return "sequential"; }
   std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
@@ -15,19 +15,19 @@ class SequentialPolicy final : public Policy {
     std::erase(others, &record.job);  // held on its path
     return others.empty() ? std::nullopt : std::optional(others.front()->id);
   }
-  CheckMethod method() const override { return Coordinated{tracking_error_}; }
+  CheckMethod method() const override { return Coordinated{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     return orders_apart(question);
   }
 
  private:
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Policy> make_sequential(const Cell& cell) {
-  return std::make_unique<SequentialPolicy>(cell.checking.tracking_error_rad);
+  return std::make_unique<SequentialPolicy>(cell);
 }
 
 }  // namespace armloom

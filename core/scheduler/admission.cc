@@ -9,6 +9,7 @@
 
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
@@ -24,10 +25,6 @@
 
 namespace armloom {
 namespace {
-
-// What an arm may be granted beyond its stopping distance: so long it goes on at full speed without
-// a word from here, and so far others cannot be let pass before it.
-constexpr Duration kHorizon = std::chrono::milliseconds(250);
 
 // In one step a job is put off once, or a few times if the sequence of waiting jobs changes. More
 // than this for each job, and as much for 32 more, is an endless loop.
@@ -104,7 +101,8 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const Trajectory& trajectory = *state.jobs.at(jobs[i]).job.trajectory;
     candidates[i].horizon = from_seconds(stopping_reach_s(*state.cell, trajectory)) +
-                            state.cell->monitor.reaction + kHorizon;
+                            state.cell->monitor.reaction +
+                            promises_of(*state.cell, trajectory.arms()).free_run();
   }
   state.graph.admit(candidates, orders);
   ++state.version;

@@ -6,13 +6,11 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 #include "core/scheduler/motion_questions.h"
 
 namespace armloom {
 namespace {
-
-// Authority is extended by no less than this, but for the last bit.
-constexpr Duration kGrantStep = std::chrono::milliseconds(80);
 
 void explain_pause(State& state, Record& record) {
   if (auto speed = speed_wait(state, record.job)) {
@@ -85,7 +83,8 @@ TimePoint overrun_after(const State& state, const Job& job) {
   if (state.speed.effective(arms) == 0.0) return TimePoint::max();
   const Duration left = paced(job.trajectory->duration() - job.progress, state.speed.pace(arms));
   return state.now + from_seconds(to_seconds(left) * state.cell->execution.duration_scaling) +
-         state.cell->execution.duration_margin;
+         promises_of(*state.cell, job.trajectory->arms())
+             .overrun_margin(state.cell->execution.duration_margin);
 }
 
 void dispatch_ready(State& state) {

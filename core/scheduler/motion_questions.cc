@@ -23,11 +23,10 @@ constexpr double kMeasured = 1e-4;
 
 // Under policies without orders nothing else tells those who are about to pass.
 Motion::Stands stands_now(const State& state, const Job& job) {
-  const auto* moving = job.in<Moving>();
   if (job.in<Held>() != nullptr) return Motion::Stands::stays;
   if (speed_wait(state, job)) return Motion::Stands::may_stay;
   if (job.in<Braking>() != nullptr) return Motion::Stands::may_stay;
-  if (moving != nullptr && is_standing(*moving, state.now)) return Motion::Stands::may_stay;
+  if (is_standing(*state.cell, job, state.now)) return Motion::Stands::may_stay;
   return Motion::Stands::goes_on;
 }
 
@@ -62,11 +61,12 @@ double off_path_of(const State& state, const Record& record) {
     const ArmId arm = record.leg.arms[i];
     const auto before = state.jobs.queues().before(record.job, arm);
     const PlacePtr& stands = before ? end_on(state.jobs.at(*before), arm) : state.arms.place(arm);
-    off = std::max(off, (record.leg.from[i]->q - stands->q).cwiseAbs().maxCoeff());
+    const double off_arm = (record.leg.from[i]->q - stands->q).cwiseAbs().maxCoeff();
+    if (off_arm > state.cell->execution.start_tolerance_rad) return 0.0;  // it does not begin so
+    const RobotId robot = state.cell->arm(arm).robot;
+    if (off_arm > state.cell->tracking_error(robot)) off = std::max(off, off_arm + kMeasured);
   }
-  const bool follows = off <= state.cell->checking.tracking_error_rad ||
-                       off > state.cell->execution.start_tolerance_rad;  // it does not begin so
-  return follows ? 0.0 : off + kMeasured;
+  return off;
 }
 
 Question question_now(const State& state, const std::vector<JobId>& candidates) {

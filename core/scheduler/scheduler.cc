@@ -30,13 +30,15 @@
 namespace armloom {
 namespace {
 
-void note_moved(Moving& moving, Duration progress, TimePoint now) {
-  if (is_standing(moving, now)) {
-    moving.goes_since = now;
-    moving.goes_from = progress;
+void note_moved(const State& state, Job& job) {
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving == nullptr) return;
+  if (is_standing(*state.cell, job, state.now)) {
+    moving->goes_since = state.now;
+    moving->goes_from = job.progress;
   }
-  moving.moved_at = now;
-  moving.was_compared = false;
+  moving->moved_at = state.now;
+  moving->was_compared = false;
 }
 
 // The first one of a job: it has started.
@@ -279,8 +281,7 @@ void Scheduler::on(const MotionReport& input) {
   if (record == nullptr || record->job.has_ended()) return;
   const Duration before = std::exchange(record->job.progress, input.progress);
   record->job.times.measured_at = state_.now;
-  auto* moving = std::get_if<Moving>(&record->job.phase);
-  if (moving != nullptr && input.progress > before) note_moved(*moving, input.progress, state_.now);
+  if (input.progress > before) note_moved(state_, record->job);
   state_.graph.progress(record->job.id, input.progress);
   see_pauses(state_, *record, before);
   if (input.kind == MotionReport::Kind::progressed) {

@@ -29,13 +29,14 @@ void prepare_choice(State& state, const std::vector<JobId>& jobs) {
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Record& record = state.jobs.at(motion.job);
     const bool weighs = state.policy->weighs_again();
-    const Duration stands = weighs ? stood_for(record.job, state.now) : Duration{};
+    const Duration stands = weighs ? stood_for(*state.cell, record.job, state.now) : Duration{};
     const bool is_aged = state.has_aged(record);
     const double planned = state.speed.pace(motion.arms);
-    state.graph.set_outlook(motion.job,
-                            {.keeps_its_place = is_aged && stands <= Duration{},
-                             .stands_for = stands,
-                             .pace = weighs ? pace_of(record.job, planned, state.now) : planned});
+    state.graph.set_outlook(
+        motion.job,
+        {.keeps_its_place = is_aged && stands <= Duration{},
+         .stands_for = stands,
+         .pace = weighs ? pace_of(*state.cell, record.job, planned, state.now) : planned});
     in_front.push_back(&record.job);
   }
   state.graph.set_work_behind(work_behind(state, in_front));

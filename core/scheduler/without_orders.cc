@@ -5,6 +5,7 @@
 #include "core/jobs/pace.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
 
 namespace armloom {
@@ -33,8 +34,11 @@ void see_standing(State& state) {
   bool is_news = false;
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    auto* moving = std::get_if<Moving>(&state.jobs.at(id).job.phase);
-    if (moving == nullptr || moving->was_compared || !is_standing(*moving, state.now)) continue;
+    Job& job = state.jobs.at(id).job;
+    auto* moving = std::get_if<Moving>(&job.phase);
+    if (moving == nullptr || moving->was_compared || !is_standing(*state.cell, job, state.now)) {
+      continue;
+    }
     moving->was_compared = is_news = true;
   }
   if (is_news) compare_again(state);
@@ -44,9 +48,11 @@ std::optional<TimePoint> stands_next(const State& state) {
   if (!has_no_orders(state)) return std::nullopt;
   std::optional<TimePoint> next;
   for (JobId id : state.jobs.past_queue()) {
-    const auto* moving = state.jobs.at(id).job.in<Moving>();
+    const Job& job = state.jobs.at(id).job;
+    const auto* moving = job.in<Moving>();
     if (moving == nullptr || moving->was_compared) continue;
-    const TimePoint stands = moving->moved_at + kStandsFrom;
+    const TimePoint stands =
+        moving->moved_at + promises_of(*state.cell, job.trajectory->arms()).stands_from();
     next = next ? std::min(*next, stands) : stands;
   }
   return next;

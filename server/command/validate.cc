@@ -7,6 +7,7 @@
 
 #include "core/audit/audit.h"
 #include "core/base/diagnostics.h"
+#include "core/executive/promise_report.h"
 #include "core/executive/shape_report.h"
 #include "server/codec/cell_format.h"
 #include "server/command/command.h"
@@ -115,6 +116,42 @@ void print_shapes(const std::vector<ShapeReport>& report) {
   }
 }
 
+std::string millimeters(const PromiseReport::Distance& distance) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << 1000.0 * distance.home_m << " mm at home, at most "
+       << 1000.0 * distance.max_m << " mm";
+  return text.str();
+}
+
+void print_promises(const Cell& cell, const PromiseReport& report) {
+  const Arm& arm = cell.arm(report.arm);
+  const ControllerDescription& promised = cell.robots[arm.robot.index()].controller;
+  std::cout << "promises of arm " << arm.name << ":\n"
+            << "  tracking error " << report.tracking_error << " rad (m): inflates the arm by "
+            << millimeters(report.inflation) << '\n'
+            << "  reaction " << to_seconds(promised.reaction)
+            << " s: one joint at full speed stops in " << std::round(1e3 * report.stopping_s) / 1e3
+            << " s and " << millimeters(report.stopping) << '\n'
+            << "  feedback every " << to_seconds(promised.feedback_period) << " s, lost after "
+            << to_seconds(promised.feedback_timeout) << " s: authority reaches "
+            << to_seconds(report.horizon)
+            << " s beyond the stopping distance, synchronous arms lead by up to "
+            << to_seconds(report.lead) << " s\n";
+}
+
+// A home whose clearance is not certified is no fault: the arm may leave it if the pair moves
+// apart.
+void warn_of_home(const std::string& cell_file, const Cell& cell, const PromiseReport& report) {
+  if (!report.too_close_at_home) return;
+  const Proximity& near = *report.too_close_at_home;
+  std::cerr
+      << cell_file << ": warning: arm " << cell.arm(report.arm).name << " at home: " << near.body_a
+      << " and " << near.body_b << " are " << near.clearance_m
+      << " m apart, but their required clearance of " << near.limit_m
+      << " m is not certified if joints deviate by tracking_error_rad, so jobs may be refused "
+         "there; change the home, or lower the controller's tracking_error_rad\n";
+}
+
 }  // namespace
 
 int validate_cell(const std::string& cell_file, bool verbose) {
@@ -137,6 +174,15 @@ int validate_cell(const std::string& cell_file, bool verbose) {
     return kExitBadInput;
   }
   print_shapes(*shapes);
+  const auto promises = report_promises(loaded->cell);
+  if (!promises) {
+    complain(cell_file, promises.error());
+    return kExitBadInput;
+  }
+  for (const PromiseReport& promised : *promises) {
+    print_promises(cell, promised);
+    warn_of_home(cell_file, cell, promised);
+  }
   if (const auto& smallest = report->smallest_clearance) {
     std::cout << "home clearance " << smallest->distance_m << " m: " << smallest->body_a << " and "
               << smallest->body_b << '\n';

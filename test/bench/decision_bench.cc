@@ -123,7 +123,7 @@ class Hall {
                             .candidates = {{JobId{1}, motion, Duration{}}},
                             .others = {},
                             .rest = cell_->home(),
-                            .method = Coordinated{cell_->checking.tracking_error_rad}};
+                            .method = Coordinated{TrackingErrors(*cell_)}};
     return chooses_.judge(question).kind == Verdict::Kind::free;
   }
 

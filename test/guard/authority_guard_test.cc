@@ -27,10 +27,10 @@ TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Durat
 }
 
 CertifiedSide on(const TrajectoryPtr& motion, Duration from = {}) {
-  return {motion->arms(), motion, from, kError, {}};
+  return {motion->arms(), motion, from, std::vector(motion->arms().size(), kError), {}};
 }
 CertifiedSide resting(ArmId arm, double at) {
-  return {{arm}, nullptr, {}, kError, {{joint(arm), at}}};
+  return {{arm}, nullptr, {}, {kError}, {{joint(arm), at}}};
 }
 
 class Guarded : public ::testing::Test {
@@ -40,7 +40,8 @@ class Guarded : public ::testing::Test {
     content.arms = {11, 12, 13};
     near_all({21, 22});
     guard.emplace(
-        std::vector<std::vector<JointId>>{{joint(kLeft)}, {joint(kRight)}, {joint(kThird)}},
+        std::vector<AuthorityGuard::GuardedArm>{
+            {{joint(kLeft)}}, {{joint(kRight)}}, {{joint(kThird)}}},
         Configuration::Zero(3), content);
     guard->take(std::vector<Certificate>{apart(kLeft, kThird), apart(kRight, kThird)});
   }
@@ -218,7 +219,7 @@ TEST_F(Guarded, StartOffThePathNeedsACertificateWithThatError) {
   EXPECT_EQ(why(off, 1s), Why::uncertified);
   EXPECT_NEAR(guard->off_path(off, {}), 0.005, 1e-12);
   CertifiedSide wide = on(off);
-  wide.error = 0.006;
+  wide.errors = {0.006};
   take({scene(wide), pair(wide, resting(kRight, 0.0))});
   ASSERT_EQ(guard->grant(off, {}, 1s), std::nullopt);
   guard->moves(kLeft, 1s);

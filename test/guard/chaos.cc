@@ -38,10 +38,10 @@ double on_path(const Trajectory& motion, JointId joint, Duration progress) {
   return position[std::ranges::find(motion.joints(), joint) - motion.joints().begin()];
 }
 
-std::vector<std::vector<JointId>> joints_of(const Cell& cell) {
-  std::vector<std::vector<JointId>> joints;
-  for (const Arm& arm : cell.arms) joints.push_back(arm.joints);
-  return joints;
+std::vector<AuthorityGuard::GuardedArm> guarded_arms(const Cell& cell) {
+  std::vector<AuthorityGuard::GuardedArm> arms;
+  for (const Arm& arm : cell.arms) arms.push_back({arm.joints});
+  return arms;
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ Chaos::Chaos(const RailCell& rails, MotionChecker& checker, std::uint64_t seed, 
       guarded_(guarded),
       scene_(rails.scene),
       arms_(rails.cell->arms.size(), RailArm{.q = -RailCell::kEnd_m}),
-      guard_(joints_of(*rails.cell), rails.cell->home(), rails.scene->fingerprint()) {
+      guard_(guarded_arms(*rails.cell), rails.cell->home(), rails.scene->fingerprint()) {
   checker_.look_at(scene_);
 }
 

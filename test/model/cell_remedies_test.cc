@@ -217,8 +217,16 @@ TEST(FixedJoints, OverrideADifferentHomeWithAWarning) {
 TEST(Warnings, ReportNoiseAboveTheCertifiedTrackingError) {
   CellDescription cell = two_arms_description();
   cell.robots[0].controller.noise_rad = 0.05;
-  EXPECT_THAT(warnings_of(cell), HasSubstr("robot twin: noise_rad is 0.05, more than checking "
-                                           "tracking_error_rad of 0.001"));
+  EXPECT_THAT(warnings_of(cell), HasSubstr("robot twin: noise_rad is 0.05, more than a sixth "
+                                           "of its tracking_error_rad of 0.001"));
+}
+
+TEST(Warnings, CompareNoiseWithThePromiseOfItsController) {
+  CellDescription cell = two_arms_description();
+  cell.robots[0].controller.noise_rad = 0.0002;
+  EXPECT_THAT(warnings_of(cell), HasSubstr("raise the controller's tracking_error_rad to 0.0012"));
+  cell.robots[0].controller.tracking_error_rad = 0.002;
+  EXPECT_EQ(warnings_of(cell), "");
 }
 
 TEST(Warnings, AreEmptyForTheCellsOfTheRepository) {

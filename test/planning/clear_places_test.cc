@@ -31,7 +31,7 @@ struct Middle {
                        .candidates = {{JobId{0}, motion, Duration{}}},
                        .others = {},
                        .rest = rest,
-                       .method = Swept{wall.cell->checking.tracking_error_rad}})
+                       .method = Swept{TrackingErrors(*wall.cell)}})
                .kind == Verdict::Kind::free;
   }
   WallCell wall;

@@ -93,10 +93,10 @@ TEST_F(ScriptedArms, ReportTheSlowestArmOfAMultiArmMotion) {
 TEST_F(ScriptedArms, WaitIfTheyGetAheadOfTheirMotion) {
   dispatch({ArmId{0}, ArmId{1}});
   say(0, 2s, 2s);
-  say(1, 2s - 2 * kOutOfStep, 2s - 2 * kOutOfStep);
+  say(1, 2s - 2 * Promises::kOutOfStepMin, 2s - 2 * Promises::kOutOfStepMin);
   (void)motions->tick(TimePoint{} + 1ms);
-  EXPECT_EQ(arms[0]->granted, 2s - 2 * kOutOfStep);
-  EXPECT_GT(arms[1]->granted, 2s - 2 * kOutOfStep);
+  EXPECT_EQ(arms[0]->granted, 2s - 2 * Promises::kOutOfStepMin);
+  EXPECT_GT(arms[1]->granted, 2s - 2 * Promises::kOutOfStepMin);
 }
 
 // The second arm's feedback freezes. Its position is then unknown, but it can be ahead by a bounded
@@ -105,14 +105,14 @@ TEST_F(ScriptedArms, GetBoundedAuthorityWithoutFeedback) {
   dispatch({ArmId{0}, ArmId{1}});
   const Duration reach = from_seconds(stopping_reach_s(
       *cell, *small::sweep(*cell, {ArmId{0}, ArmId{1}}, {-1.0, -1.0}, {1.0, 1.0}, 4s)));
-  ASSERT_LT(1s + kOutOfStep + reach, 4s);
+  ASSERT_LT(1s + Promises::kOutOfStepMin + reach, 4s);
   for (int tick = 1; tick <= 1000; ++tick) {
     const Duration first = std::min<Duration>(tick * 1ms, 1s);
     const Duration known = std::min<Duration>(tick * 1ms, 500ms);
     say(0, first, first);
     say(1, known, known);
     (void)motions->tick(TimePoint{} + tick * 1ms);
-    EXPECT_LE(arms[1]->granted, known + kOutOfStep + reach);
+    EXPECT_LE(arms[1]->granted, known + Promises::kOutOfStepMin + reach);
   }
   EXPECT_GT(arms[1]->granted, 500ms + reach);
 }

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include "core/model/promises.h"
 #include "test/scheduler/bench_cell.h"
+#include "test/scheduler/ideal_arms.h"
 
 namespace armloom {
 namespace {
@@ -163,6 +165,31 @@ TEST_F(Horizon, TeamIsNotAdmittedIfItsArmBlocksItsOtherArm) {
   answer_all_free();
   EXPECT_EQ(bench.state(team), JobState::queued);
   EXPECT_LT(bench.authority(held), 4s);
+}
+
+// Returns the time that a motion of 6 s takes if its reports come as late as `promised` permits.
+Duration time_of_a_motion(const ControllerDescription& promised, Duration feedback_age) {
+  auto cell = std::make_shared<Cell>(*one_joint_arms(1));
+  cell->robots[0].controller = promised;
+  IdealArms arms(cell, std::move(*make_policy("certified", *cell)), Crossings{},
+                 [&](JobId) { return Habits{.feedback_age = feedback_age}; });
+  const JobId job = arms.submit({JobId{0}, move({0}, 0, 1, 6s), {}});
+  while (arms.state(job) != JobState::succeeded && arms.now() < at(60s)) {
+    arms.run_until(arms.now() + 10ms);
+  }
+  return arms.now() - *arms.job(job).times.scheduled_at;
+}
+
+TEST(Promises, ReportsThatAreLateAsPromisedDoNotStopAnArm) {
+  ControllerDescription slow;
+  slow.reaction = 200ms;
+  slow.feedback_period = 50ms;
+  slow.feedback_timeout = 1s;
+  // The age stands for all delays of the loop: the last report and the effect of the command.
+  const Duration late = promises_of(slow).late_response();
+  EXPECT_LE(time_of_a_motion(slow, late), 6s + late + 50ms);
+  EXPECT_GT(time_of_a_motion(ControllerDescription{}, late), 6s + 2 * late)
+      << "authority for the default promises does not reach that far";
 }
 
 }  // namespace

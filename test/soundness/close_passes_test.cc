@@ -22,7 +22,7 @@ TEST(ClosePasses, AreDecidedWithARaisedBudget) {
   std::size_t left = 0;
   for (const MovingPair& pair : random_pairs(exact, pool, 3000, 78)) {
     MotionChecker checker(exact.scene);
-    Question question = pair.question(*shared, Swept{.tracking_error = 0.0});
+    Question question = pair.question(*shared, Swept{.tracking_errors = 0.0});
     Verdict verdict = checker.judge(question);
     if (verdict.kind == Verdict::Kind::undecided) ++open;
     while (verdict.kind == Verdict::Kind::undecided) {

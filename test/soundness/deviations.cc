@@ -12,7 +12,10 @@ class Downhill {
   Downhill(bench::ExactScene& exact, const MovingPair& pair, const DeviationAttack& attack)
       : exact_(exact), pair_(pair), attack_(attack) {
     for (const Motion* motion : {&pair.candidate, &pair.other}) {
-      for (const JointId joint : motion->trajectory->joints()) joints_.push_back(joint.index());
+      for (const JointId joint : motion->trajectory->joints()) {
+        joints_.push_back(joint.index());
+        errors_.push_back(attack.tracking_errors.of(*exact.cell().joint(joint).arm));
+      }
     }
   }
 
@@ -71,7 +74,7 @@ class Downhill {
     pair_.state_at(0.0, state.own_s - to_seconds(pair_.candidate.progress),
                    state.other_s - to_seconds(pair_.other.progress), q_);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      q_[static_cast<Eigen::Index>(joints_[j])] += attack_.tracking_error * state.share[j];
+      q_[static_cast<Eigen::Index>(joints_[j])] += errors_[j] * state.share[j];
     }
     return exact_.between_arms(q_, attack_.horizon_m);
   }
@@ -80,6 +83,7 @@ class Downhill {
   const MovingPair& pair_;
   DeviationAttack attack_;
   std::vector<std::size_t> joints_;
+  std::vector<double> errors_;  // by index in joints_
   Configuration q_;
   State at_;
   double best_m_ = 0.0;

@@ -10,10 +10,10 @@ struct PlaceOfPair {
   Duration own_time;
   Duration other_time;
 };
-// How to search: from `throws` random deviations, with each joint up to `tracking_error` off its
+// How to search: from `throws` random deviations, with each joint up to its arm's error off its
 // path.
 struct DeviationAttack {
-  double tracking_error;
+  TrackingErrors tracking_errors;
   int throws;
   double horizon_m;  // larger distances are not computed
 };

@@ -45,8 +45,8 @@ TrajectoryPtr crossing(const Cell& cell, double ahead_m) {
 
 TEST(InStep, ArmsKeepTheClearanceForAnyAllowedLag) {
   const CellPtr cell = two_rails();
-  const double behind_s =
-      to_seconds(kOutOfStep + kUntilTold) + stopping_reach_s(*cell, *crossing(*cell, 0.0));
+  const double behind_s = to_seconds(lead_max(*cell, *crossing(*cell, 0.0))) +
+                          stopping_reach_s(*cell, *crossing(*cell, 0.0));
   // Centers at (s, s + ahead) are at least |ahead| / sqrt(2) apart.
   const double least_m =
       std::sqrt(2.0) * (2.0 * kRadius_m + kClearance_m + 2.0 * kTracking_m) + kSpeed_m_s * behind_s;

@@ -14,8 +14,8 @@ namespace armloom::soundness {
 namespace {
 
 constexpr std::size_t kPairs = 120;
-constexpr std::size_t kStates = 600;  // per pair, and as many near its outlines
-constexpr double kTracking_rad = 0.003;
+constexpr std::size_t kStates = 600;                // per pair, and as many near its outlines
+constexpr double kTracking_rad[] = {0.001, 0.005};  // of the left and the right robot
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizon_m = 0.05;
 
@@ -35,6 +35,14 @@ const PairRegions* between_motions_of(const Verdict& verdict) {
   return found == verdict.regions.end() ? nullptr : &*found;
 }
 
+CellPtr promising_pandas() {
+  Cell cell = *bench::two_pandas();
+  for (std::size_t r = 0; r < cell.robots.size(); ++r) {
+    cell.robots[r].controller.tracking_error_rad = kTracking_rad[r];
+  }
+  return std::make_shared<const Cell>(std::move(cell));
+}
+
 struct Tally {
   std::size_t pairs = 0;
   std::size_t with_regions = 0;
@@ -48,7 +56,7 @@ constexpr double kLoose_m = 0.05;
 
 class Attack {
  public:
-  Attack() : exact_(bench::two_pandas()), random_(31), q_(exact_.cell().home()) {}
+  Attack() : exact_(promising_pandas()), random_(31), q_(exact_.cell().home()) {}
 
   Tally run() {
     const Pool pool(exact_, 40, 32);
@@ -56,7 +64,7 @@ class Attack {
     for (const MovingPair& pair : random_pairs(exact_, pool, 2 * kPairs, 33)) {
       if (tally_.pairs == kPairs) break;
       const Verdict verdict =
-          checker.judge(pair.question(exact_.cell(), Coordinated{kTracking_rad}));
+          checker.judge(pair.question(exact_.cell(), Coordinated{TrackingErrors(exact_.cell())}));
       if (verdict.kind != Verdict::Kind::free) continue;  // a candidate alone is in conflict
       ++tally_.pairs;
       attack(pair, between_motions_of(verdict));
@@ -131,7 +139,8 @@ class Attack {
         double& q = q_[static_cast<Eigen::Index>(joint.index())];
         const double on_path = q;
         double best = on_path;
-        for (const double off : {-kTracking_rad, kTracking_rad}) {
+        const double error = exact_.cell().tracking_error(exact_.cell().joint(joint).robot);
+        for (const double off : {-error, error}) {
           q = on_path + off;
           const double found_m = exact_.between_arms(q_, kHorizon_m);
           if (found_m >= distance_m) continue;

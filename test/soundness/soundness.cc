@@ -12,7 +12,7 @@
 namespace armloom::soundness {
 namespace {
 
-constexpr Coordinated kExactly{0.0};
+const Coordinated kExactly{0.0};
 
 std::string milli(double value) {
   std::ostringstream text;

@@ -64,7 +64,7 @@ OpenPairs find_open(std::size_t count, std::uint64_t seed, const CheckMethod& me
       continue;
     }
     double keeps_m = kFar_m;
-    const DeviationAttack attack{tracking_error_of(method), kThrows, kFar_m};
+    const DeviationAttack attack{tracking_errors_of(method), kThrows, kFar_m};
     for (const PlaceOfPair& place : places) {
       keeps_m = std::min(keeps_m, closest_with_deviations(exact, pair, place, attack, random));
     }

@@ -7,13 +7,15 @@ namespace armloom {
 
 CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms, const Motion* motion) {
   CertifiedSide side;
-  side.error = arms.front()->tracking_error;
   if (motion != nullptr) {
     side.motion = motion->trajectory;
     side.from = std::clamp(motion->progress, Duration{}, motion->trajectory->duration());
   }
-  for (const MotionStore::Entry* entry : arms) {
+  std::vector<MotionStore::Entry*> ascending(arms.begin(), arms.end());
+  std::ranges::sort(ascending, {}, &MotionStore::Entry::arm);
+  for (const MotionStore::Entry* entry : ascending) {
     side.arms.push_back(entry->arm);
+    side.errors.push_back(entry->tracking_error);
     const auto& joints = entry->tube->kinematics().joints();
     for (std::size_t row = 0; row < joints.size(); ++row) {
       const bool moves = side.motion && std::ranges::find(side.motion->joints(), joints[row]) !=
@@ -21,7 +23,6 @@ CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms, const Mo
       if (!moves) side.still.emplace_back(joints[row], entry->rest[row]);
     }
   }
-  std::ranges::sort(side.arms);
   return side;
 }
 

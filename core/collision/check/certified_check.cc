@@ -41,7 +41,7 @@ double CertifiedCheck::ArmMotion::progress_s() const {
 CertifiedCheck::CertifiedCheck(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(tracking_error_of(question.method)),
+      tracking_errors_(tracking_errors_of(question.method)),
       verdict_{Verdict::Kind::free,
                question.version,
                {},
@@ -57,7 +57,7 @@ std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::arms_of(const Motion& mot
   std::vector<ArmMotion> arms;
   for (const ArmId arm : motion.trajectory->arms()) {
     arms.push_back({&motion, &store_.motion(motion.trajectory, arm, question_.rest,
-                                            std::max(tracking_error_, motion.off_path))});
+                                            std::max(tracking_errors_.of(arm), motion.off_path))});
   }
   return arms;
 }
@@ -81,7 +81,8 @@ std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::all_arms() {
   }
   for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
     if (moved[a]) continue;
-    all.push_back({nullptr, &store_.motion(nullptr, ArmId{a}, question_.rest, tracking_error_)});
+    all.push_back({nullptr, &store_.motion(nullptr, ArmId{a}, question_.rest,
+                                           tracking_errors_.of(ArmId{a}))});
   }
   return all;
 }
@@ -123,8 +124,8 @@ void CertifiedCheck::certify_alone() {
       for (MotionStore::Entry* arm : entries) {
         reach = std::min(reach, from_seconds(store_.stopping_reach_s(*arm)));
       }
-      verdict_.certificates.emplace_back(
-          TogetherCertificate{side, kOutOfStep + kUntilTold + reach, content.of(side.arms)});
+      verdict_.certificates.emplace_back(TogetherCertificate{
+          side, lead_max(scene.cell(), *motion.trajectory) + reach, content.of(side.arms)});
     }
     for (const ArmId own : side.arms) {
       for (std::uint32_t a = 0; a < scene.cell().arms.size(); ++a) {
@@ -207,7 +208,7 @@ void CertifiedCheck::check_swept(const ArmMotion& own, const ArmMotion& other) {
 // Checks two arms of one synchronous motion. Each arm may be as far behind the other as in_step.h
 // permits.
 void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other) {
-  const double apart_s = to_seconds(kOutOfStep + kUntilTold);
+  const double apart_s = to_seconds(lead_max(store_.scene()->cell(), *own.motion->trajectory));
   const double duration_s = to_seconds(own.entry->duration());
   ask(store_.between(*own.entry, *other.entry),
       {.progress_a = own.progress_s(),
@@ -268,7 +269,7 @@ void CertifiedCheck::report(const CoordinationDiagram::Answer& answer,
 }
 
 void check_passage(MotionStore& store, const PassageQuestion& passage, Configuration rest,
-                   double tracking_error, Verdict& verdict) {
+                   const TrackingErrors& tracking_errors, Verdict& verdict) {
   PassageAnswer& is = verdict.passages.emplace_back(PassageAnswer::free);
   std::optional<PassageBlock>& block = verdict.passage_blocks.emplace_back();
   const auto& arms = passage.motion.trajectory->arms();
@@ -279,9 +280,11 @@ void check_passage(MotionStore& store, const PassageQuestion& passage, Configura
   const auto& joints = store.scene()->cell().arm(passage.arm).joints;
   Configuration at_rest = rest;
   set_joints(at_rest, joints, passage.rest);
-  MotionStore::Entry& other = store.motion(nullptr, passage.arm, at_rest, tracking_error);
+  MotionStore::Entry& other =
+      store.motion(nullptr, passage.arm, at_rest, tracking_errors.of(passage.arm));
   for (const ArmId arm : arms) {
-    MotionStore::Entry& own = store.motion(passage.motion.trajectory, arm, rest, tracking_error);
+    MotionStore::Entry& own =
+        store.motion(passage.motion.trajectory, arm, rest, tracking_errors.of(arm));
     const OrientedDiagram diagram = store.between(own, other);
     if (!diagram) continue;
     const double duration_s = to_seconds(own.duration());

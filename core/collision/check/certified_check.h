@@ -38,16 +38,16 @@ class CertifiedCheck {
 
   MotionStore& store_;
   const Question& question_;
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
   Verdict verdict_;
 };
 
 // Returns a budget of `cells` for each 10 s of the longest motion, but at least `cells`.
 [[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
 
-// Answers a PassageQuestion: appends to `passages` and `passage_blocks` of the verdict. Each joint
-// may be up to `tracking_error` off its path. Adds the number of evaluated cells to `evaluations`.
+// Answers a PassageQuestion: appends to `passages` and `passage_blocks` of the verdict. Adds the
+// number of evaluated cells to `evaluations`.
 void check_passage(MotionStore& store, const PassageQuestion& passage, Configuration rest,
-                   double tracking_error, Verdict& verdict);
+                   const TrackingErrors& tracking_errors, Verdict& verdict);
 
 }  // namespace armloom

@@ -25,11 +25,11 @@ TubePair::Nodes nodes_of(const TubePair& pair, const std::shared_ptr<MotionTube>
 }  // namespace
 
 LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
-                         double tracking_error, const std::vector<ArmId>& left_out)
+                         const TrackingErrors& tracking_errors, const std::vector<ArmId>& left_out)
     : scene_(std::move(scene)),
       arm_(arm),
       rest_(rest),
-      tracking_error_(tracking_error),
+      tracking_error_(tracking_errors.of(arm)),
       geometry_(std::make_shared<const ArmGeometry>(scene_->bodies(), arm)),
       tube_scratch_(MotionTube::make_scratch(*geometry_)),
       pair_scratch_(TubePair::make_scratch()) {
@@ -49,7 +49,7 @@ LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration&
   };
   for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
     const bool is_out = std::ranges::find(left_out, ArmId{a}) != left_out.end();
-    if (ArmId{a} != arm && !is_out) add(ArmId{a}, tracking_error);
+    if (ArmId{a} != arm && !is_out) add(ArmId{a}, tracking_errors.of(ArmId{a}));
   }
   add(std::nullopt, 0.0);
   if (!geometry_->self.empty()) counterparts_.push_back({geometry_->self, nullptr});

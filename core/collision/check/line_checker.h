@@ -9,6 +9,7 @@
 #include "core/collision/diagram/tube_pair.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/coordination/proximity.h"
+#include "core/coordination/tracking_errors.h"
 
 namespace armloom {
 
@@ -22,11 +23,10 @@ namespace armloom {
 class LineChecker {
  public:
   // - `rest`: positions of all joints of the cell; those of the arm's own joints are ignored
-  // - `tracking_error`: of each joint (rad, m)
   // - `left_out`: arms that are ignored, with their attached objects
   // Throws std::invalid_argument unless `rest` has an entry for each joint.
-  LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest, double tracking_error,
-              const std::vector<ArmId>& left_out = {});
+  LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
+              const TrackingErrors& tracking_errors, const std::vector<ArmId>& left_out = {});
 
   enum class Kind {
     free,       // the whole line is certified
@@ -89,7 +89,7 @@ class LineChecker {
   PlanningScenePtr scene_;
   ArmId arm_;
   Configuration rest_;
-  double tracking_error_;
+  double tracking_error_;  // of the arm (rad, m)
   std::shared_ptr<const ArmGeometry> geometry_;
   std::shared_ptr<MotionTube::Scratch> tube_scratch_;
   std::shared_ptr<TubePair::Scratch> pair_scratch_;

@@ -82,7 +82,7 @@ Verdict MotionChecker::judge(const Question& question, CheckProgress* progress) 
     verdict = std::holds_alternative<Swept>(question.method) ? check.swept() : check.coordinated();
   }
   for (const PassageQuestion& passage : question.passages) {
-    check_passage(store_, passage, question.rest, tracking_error_of(question.method), verdict);
+    check_passage(store_, passage, question.rest, tracking_errors_of(question.method), verdict);
   }
   if (progress != nullptr && progress->is_interrupted()) return interrupted(question);
   return verdict;
@@ -99,7 +99,7 @@ Diagram MotionChecker::draw(const Drawing& drawing, CheckProgress* progress) {
   store_.begin_question(progress);
   Diagram diagram{drawing.a->duration(), drawing.b->duration(), {}, 0};
   const auto entry = [&](const TrajectoryPtr& motion, ArmId arm) -> MotionStore::Entry& {
-    return store_.motion(motion, arm, drawing.rest, drawing.tracking_error);
+    return store_.motion(motion, arm, drawing.rest, drawing.tracking_errors.of(arm));
   };
   for (const ArmId arm_a : drawing.a->arms()) {
     for (const ArmId arm_b : drawing.b->arms()) {

@@ -62,7 +62,7 @@ CoordinationDiagram::Resolution PairRegionSearch::resolution_of(Duration shorter
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
-      tracking_error_(std::get<Coordinated>(question.method).tracking_error) {
+      tracking_errors_(std::get<Coordinated>(question.method).tracking_errors) {
   for (const Motion& motion : question.others) in_order_.push_back(&motion);
   for (const Motion& motion : question.candidates) in_order_.push_back(&motion);
   std::ranges::stable_partition(in_order_, [](const Motion* motion) { return !motion->to_come; });
@@ -72,13 +72,13 @@ PairRegionSearch::Side PairRegionSearch::side_of(const Motion& motion) {
   Side side{motion.job, &motion, {}};
   for (const ArmId arm : motion.trajectory->arms()) {
     side.arms.push_back(&store_.motion(motion.trajectory, arm, question_.rest,
-                                       std::max(tracking_error_, motion.off_path)));
+                                       std::max(tracking_errors_.of(arm), motion.off_path)));
   }
   return side;
 }
 
 PairRegionSearch::Side PairRegionSearch::resting(ArmId arm, const Configuration& rest) {
-  return {arm, nullptr, {&store_.motion(nullptr, arm, rest, tracking_error_)}};
+  return {arm, nullptr, {&store_.motion(nullptr, arm, rest, tracking_errors_.of(arm))}};
 }
 
 std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Motion& candidate) {

@@ -89,7 +89,7 @@ class PairRegionSearch {
 
   MotionStore& store_;
   const Question& question_;
-  double tracking_error_;
+  TrackingErrors tracking_errors_;
   std::uint64_t evaluations_ = 0;
   ClearanceBound parted_;
   bool exhausted_ = false;

@@ -50,6 +50,17 @@ class Chain {
   const Cell& cell_;
 };
 
+// Returns by how much the tracking errors of the arm's prismatic joints exceed its share of the
+// slack (m).
+double beyond_slack_m(const Cell& cell, ArmId arm) {
+  double slides_m = 0.0;
+  for (const Link& link : cell.links) {
+    if (link.arm != arm || !link.driver || link.motion != JointKind::prismatic) continue;
+    slides_m += std::abs(link.multiplier) * cell.tracking_error(link.robot);
+  }
+  return std::max(0.0, slides_m - 0.5 * kSlack_m);
+}
+
 }  // namespace
 
 double travel_m(const Cell& cell, const Link& link) {
@@ -75,6 +86,7 @@ Ball reach_of(const PlanningScene::Bodies& bodies, ArmId arm) {
     reach.radius_m =
         std::max(reach.radius_m, chain.farthest_m(*body.carrier, reach.center) + from_link_m);
   }
+  reach.radius_m += beyond_slack_m(*bodies.cell, arm);
   return reach;
 }
 

@@ -69,11 +69,11 @@ class Search {
 
 std::set<LinkPair> pairs_out_of_reach(const PlanningScene::Bodies& bodies) {
   const Cell& cell = *bodies.cell;
-  const double beyond =
-      cell.checking.tracking_error_rad + cell.execution.start_tolerance_rad + kPositionOvershoot;
   const double limit_m = std::max(cell.clearances.clearance_m, kTouching_m) + kRounding_m;
   std::map<LinkId, SweptLink> swept;
   const auto swept_link = [&](LinkId link) -> SweptLink& {
+    const double beyond = cell.tracking_error(cell.link(link).robot) +
+                          cell.execution.start_tolerance_rad + kPositionOvershoot;
     return swept.try_emplace(link, bodies, link, beyond).first->second;
   };
   std::set<LinkPair> proven;

@@ -173,6 +173,11 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
                 pointer + "/feedback_period_s");
     time_within(controller.feedback_timeout_range, controller.feedback_timeout,
                 pointer + "/feedback_timeout_s");
+    require(controller.feedback_timeout >= 2 * controller.feedback_period,
+            to_seconds(controller.feedback_timeout), pointer + "/feedback_timeout_s",
+            "at least twice feedback_period_s (" + text_of(to_seconds(controller.feedback_period)) +
+                " s), so that one late report does not make the arm count as lost",
+            diagnostics);
     if (controller.tracking_error_rad) {
       within(CheckingSettings::tracking_error_range, *controller.tracking_error_rad,
              pointer + "/tracking_error_rad");

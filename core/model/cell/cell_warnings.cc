@@ -55,18 +55,23 @@ void warn_of_lags(const CellDescription& description, Diagnostics& diagnostics) 
   }
 }
 
+// Of normally distributed noise, one value in 500 million is beyond six standard deviations.
+constexpr double kSigmas = 6.0;
+
 void warn_of_noise(const CellDescription& description, Diagnostics& diagnostics) {
-  const double error_rad = description.checking.tracking_error_rad;
   for (std::size_t r = 0; r < description.robots.size(); ++r) {
     const RobotDescription& robot = description.robots[r];
     const double noise_rad = robot.controller.noise_rad;
-    if (noise_rad <= error_rad) continue;
+    const double error_rad =
+        robot.controller.tracking_error_rad.value_or(description.checking.tracking_error_rad);
+    if (kSigmas * noise_rad <= error_rad) continue;
     diagnostics.warn({ProblemKind::invalid, "noise-above-error",
                       "/robots/" + std::to_string(r) + "/controller/noise_rad",
                       "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
-                          ", more than checking tracking_error_rad of " + text_of(error_rad) +
+                          ", more than a sixth of its tracking_error_rad of " + text_of(error_rad) +
                           ": measured positions deviate farther from the paths than motions "
-                          "are certified for; raise tracking_error_rad to cover the noise",
+                          "are certified for; raise the controller's tracking_error_rad to " +
+                          text_of(kSigmas * noise_rad) + " to cover the noise",
                       noise_rad});
   }
 }

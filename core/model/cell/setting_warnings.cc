@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/model/promises.h"
+
 namespace armloom {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr double kLargeStart_rad = 0.1;
 constexpr double kLongStep_s = 0.2;
 constexpr double kSeldom_hz = 10.0;
 constexpr double kLongReaction_s = 0.5;
+constexpr double kLongTimeout_s = 2.0;
 constexpr double kStrongBrake = 10.0;  // times the acceleration
 constexpr double kFar_m = 100.0;
 
@@ -25,7 +28,10 @@ class SettingWarnings {
     warn_of_checking();
     warn_of_monitor();
     warn_of_places();
-    for (std::size_t r = 0; r < given_.robots.size(); ++r) warn_of_brakes(r);
+    for (std::size_t r = 0; r < given_.robots.size(); ++r) {
+      warn_of_brakes(r);
+      warn_of_promises(r);
+    }
   }
 
  private:
@@ -51,18 +57,39 @@ class SettingWarnings {
            "clearance larger than these errors");
   }
 
-  void warn_of_checking() const {
-    const CheckingSettings& checking = given_.checking;
-    const double error_rad = checking.tracking_error_rad;
+  void warn_of_error(const std::string& pointer, double error_rad) const {
     if (error_rad == 0.0)
-      warn("/checking/tracking_error_rad", error_rad,
+      warn(pointer, error_rad,
            ": motions are certified for arms that follow their paths exactly, which no arm does; "
            "set the real tracking error");
     if (error_rad > kLargeError_rad)
       warn(
-          "/checking/tracking_error_rad", error_rad,
+          pointer, error_rad,
           " for each joint: arms are checked with that much deviation, so almost no motion will be "
           "free of conflicts");
+  }
+
+  void warn_of_promises(std::size_t r) const {
+    const ControllerDescription& controller = given_.robots[r].controller;
+    const std::string pointer = "/robots/" + std::to_string(r) + "/controller";
+    if (controller.tracking_error_rad)
+      warn_of_error(pointer + "/tracking_error_rad", *controller.tracking_error_rad);
+    const double reaction_s = to_seconds(controller.reaction);
+    if (reaction_s > kLongReaction_s)
+      warn(pointer + "/reaction_s", reaction_s,
+           ": a stopping arm moves on that long before it brakes; reduce it if the controller "
+           "reacts faster");
+    const double timeout_s = to_seconds(controller.feedback_timeout);
+    if (timeout_s > kLongTimeout_s)
+      warn(pointer + "/feedback_timeout_s", timeout_s,
+           ": a lost arm is noticed that late, and other arms stay out of the " +
+               text_of(to_seconds(promises_of(controller).free_run())) +
+               " s of its path for which it has authority; reduce it if reports come more often");
+  }
+
+  void warn_of_checking() const {
+    const CheckingSettings& checking = given_.checking;
+    warn_of_error("/checking/tracking_error_rad", checking.tracking_error_rad);
     if (checking.limit_tolerance > kLargeTolerance)
       warn("/checking/limit_tolerance", checking.limit_tolerance,
            ": jobs may exceed the joints' velocity and acceleration limits by that share");
