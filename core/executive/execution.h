@@ -31,6 +31,7 @@ class Execution {
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.job); }
   void carry_out(const Release& release) { gate_.release(release.job); }
+  void brake(ArmId arm) { motions_.brake(arm); }
   void brake_all() { motions_.brake_all(); }
   void forget(const Job& ended);
 

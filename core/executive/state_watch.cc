@@ -5,14 +5,65 @@
 
 namespace armloom {
 
-std::string sentence(const MonitorFinding& finding) {
+namespace {
+
+using Kind = MonitorFinding::Kind;
+
+std::string figure(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string about_pair(const MonitorFinding& finding) {
   const Proximity& pair = finding.proximity;
-  char figures[96];
-  std::snprintf(figures, sizeof figures, " at %.4f m", pair.clearance_m);
-  std::string text = "monitor: " + pair.body_a + " and " + pair.body_b;
-  text += pair.clearance_m < 0.0 ? " overlap by " + in_mm(pair.clearance_m) : figures;
-  std::snprintf(figures, sizeof figures, ", limit %.4f m", finding.limit_m);
-  return text + figures;
+  std::string text = pair.body_a + " and " + pair.body_b;
+  if (finding.kind == Kind::approach) {
+    text += " may come closer than " + figure("%.4f m", finding.limit_m) + " unless an arm stops";
+    return text;
+  }
+  text += pair.clearance_m < 0.0 ? " overlap by " + in_mm(pair.clearance_m)
+                                 : figure(" at %.4f m", pair.clearance_m);
+  return text + figure(", limit %.4f m", finding.limit_m);
+}
+
+std::string about_joint(const MonitorFinding& finding, const Cell& cell) {
+  if (!finding.joint) return {};
+  const Joint& joint = cell.joint(*finding.joint);
+  return joint.name + figure(" by %.4f ", finding.value) + joint.unit() +
+         figure(", limit %.4f ", finding.limit) + joint.unit();
+}
+
+}  // namespace
+
+std::string sentence(const MonitorFinding& finding, const Cell& cell) {
+  if (is_about_pair(finding.kind)) return about_pair(finding);
+  const std::string arm = finding.arm ? cell.arm(*finding.arm).name : std::string();
+  const std::string limit = figure("%.3f s", finding.limit);
+  switch (finding.kind) {
+    case Kind::deviation:
+      return arm + " left its path: " + about_joint(finding, cell);
+    case Kind::unplanned_motion:
+      return arm + " moves without a motion: " + about_joint(finding, cell);
+    case Kind::early_finish:
+      return arm + " finished away from its goal: " + about_joint(finding, cell);
+    case Kind::beyond_authority:
+      return arm + " passed its authority: at " + figure("%.3f s", finding.value) +
+             " of its motion, permitted " + limit;
+    case Kind::late_feedback:
+      return arm + ": last report " + figure("%.3f s", finding.value) + " old, limit " + limit;
+    case Kind::frozen_feedback:
+      return arm + ": measured positions unchanged for " + figure("%.3f s", finding.value) +
+             " in motion, limit " + limit;
+    case Kind::implausible_feedback:
+      return arm +
+             ": positions changed faster than the joint can move: " + about_joint(finding, cell);
+    case Kind::missed_periods:
+      return "the monitor missed " + figure("%.0f", finding.value) + " periods in a row, limit " +
+             figure("%.0f", finding.limit);
+    default:
+      return {};
+  }
 }
 
 ClearanceQuery StateWatch::query_of(const PlanningScenePtr& scene) {
@@ -20,8 +71,10 @@ ClearanceQuery StateWatch::query_of(const PlanningScenePtr& scene) {
   return ClearanceQuery(scene, PairLimits::scaled(cell, cell.monitor.stop_clearance_m));
 }
 
-StateWatch::StateWatch(const PlanningScenePtr& scene)
-    : period_(from_seconds(1.0 / scene->cell().monitor.rate_hz)), query_(query_of(scene)) {}
+StateWatch::StateWatch(CellPtr cell, const PlanningScenePtr& scene)
+    : period_(from_seconds(1.0 / cell->monitor.rate_hz)),
+      query_(query_of(scene)),
+      premises_(std::move(cell)) {}
 
 void StateWatch::follow(ClearanceQuery& query) {
   std::swap(query_, query);
@@ -42,7 +95,7 @@ bool StateWatch::look(const Configuration& measured, const std::vector<bool>& mo
   const Configuration* state[] = {&measured};
   std::vector<Proximity> too_close;
   if (query_.too_close(state) != 0) too_close = query_.closest_too_close(measured);
-  found_ = monitor_.observe(too_close, moving, now);
+  found_ = present_.observe(too_close, moving, now);
   return true;
 }
 

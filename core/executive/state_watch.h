@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/collision/state/clearance_query.h"
-#include "core/monitor/monitor.h"
+#include "core/monitor/premises.h"
+#include "core/monitor/present.h"
 
 namespace armloom {
 
@@ -13,17 +15,22 @@ class StateWatch {
   // Pairs of links that are farther apart are not in near().
   inline static constexpr double kHorizon_m = 2.0;
 
-  explicit StateWatch(const PlanningScenePtr& scene);
+  StateWatch(CellPtr cell, const PlanningScenePtr& scene);
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
   // Call when the scene has changed: the next check then runs even if no arm has moved. Swaps the
   // query with the present one.
   void follow(ClearanceQuery& query);
 
   [[nodiscard]] bool is_due(TimePoint now);
-  // Checks `measured`, and returns true. Does nothing and returns false if `measured` has not
-  // changed since the previous call. `moving`: by ArmId.
+  // Checks the premises, and returns the new findings.
+  [[nodiscard]] std::vector<MonitorFinding> check_premises(const Observation& seen) {
+    return premises_.check(seen);
+  }
+  [[nodiscard]] const PremiseCheck& premises() const { return premises_; }
+  // Checks the measured distances, and returns true. Does nothing and returns false if `measured`
+  // has not changed since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
-  // Results of the last check of a changed state.
+  // Results of the last look() at a changed state.
   [[nodiscard]] const ClearanceQuery::Closest& near() const { return near_; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
 
@@ -31,13 +38,14 @@ class StateWatch {
   Duration period_;
   TimePoint due_{};
   ClearanceQuery query_;
-  Monitor monitor_;
+  PremiseCheck premises_;
+  PresentCheck present_;
   Configuration seen_;
   ClearanceQuery::Closest near_;
   std::vector<MonitorFinding> found_;
 };
 
-// "monitor: left_hand and right_link5 at 0.0040 m, limit 0.0100 m"
-[[nodiscard]] std::string sentence(const MonitorFinding& finding);
+// "left_hand and right_link5 at 0.0040 m, limit 0.0100 m"
+[[nodiscard]] std::string sentence(const MonitorFinding& finding, const Cell& cell);
 
 }  // namespace armloom

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -19,6 +20,69 @@ std::vector<MonitorEvent> findings(const Log& log) {
     if (const auto* monitor = std::get_if<MonitorEvent>(&event.body)) found.push_back(*monitor);
   }
   return found;
+}
+
+using Kind = MonitorFinding::Kind;
+
+void drift(Crossing& cell, const std::string& arm, TimePoint from, double m_s,
+           std::optional<Duration> lasting = {}) {
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
+      {.arm = arm, .kind = ArmFault::Kind::drift, .at = from, .lasting = lasting, .value = m_s}));
+}
+
+TEST(Monitor, StopsAnArmThatLeavesItsPath) {
+  Crossing cell(crossing_description(), "certified");
+  cell.submit(slide("x", -1, -0.5, 4, "drifts"));
+  cell.submit(slide("y", -1, -0.5, 4, "unconcerned"));
+  drift(cell, "x", at(1s), 0.05);
+  cell.run_until(at(3s));
+  const auto found = findings(cell.log);
+  ASSERT_EQ(found.size(), 1u);
+  const MonitorFinding& finding = found.front().finding;
+  EXPECT_EQ(finding.kind, Kind::deviation);
+  EXPECT_EQ(found.front().joint, "x_slide");
+  EXPECT_GT(finding.value, 0.001);
+  EXPECT_LE(finding.value, 0.003) << "one period later at the latest";
+  EXPECT_EQ(finding.limit, 0.001);
+  EXPECT_LE(finding.time, at(1100ms)) << "when it has drifted farther than it lags";
+  EXPECT_EQ(found.front().stopped, std::vector<std::string>{"x"});
+  const JobView stopped = cell.job("drifts");
+  EXPECT_EQ(stopped.state, JobState::paused);
+  ASSERT_EQ(stopped.waits_on.front().kind, Wait::Kind::stop);
+  EXPECT_EQ(stopped.waits_on.front().detail, "monitor: " + found.front().text);
+  EXPECT_THAT(found.front().text, testing::StartsWith("x left its path: x_slide by 0.00"));
+  EXPECT_LT(cell.log.last[0], -0.8) << "it has stopped";
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::running);
+  cell.run_until(at(5s));
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
+}
+
+TEST(Monitor, StopsAnArmAgainThatDriftsAfterAResume) {
+  Crossing cell(crossing_description(), "certified");
+  cell.submit(slide("x", -1, -0.5, 4, "drifts"));
+  drift(cell, "x", at(1s), 0.05);
+  cell.run_until(at(3s));
+  ASSERT_EQ(cell.job("drifts").state, JobState::paused);
+  resume_all(cell.simulation->executive());
+  cell.run_until(at(5s));  // the fault goes on: the arm drifts again
+  EXPECT_EQ(findings(cell.log).size(), 2u);
+  EXPECT_EQ(cell.job("drifts").state, JobState::paused);
+}
+
+TEST(Monitor, StopsAnArmThatMovesWithoutAJob) {
+  Crossing cell(crossing_description(), "certified");
+  drift(cell, "x", at(1s), 0.05);
+  cell.submit(slide("y", -1, -0.5, 4, "unconcerned"));
+  cell.run_until(at(3s));
+  const auto found = findings(cell.log);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().finding.kind, Kind::unplanned_motion);
+  EXPECT_EQ(found.front().stopped, std::vector<std::string>{"x"});
+  EXPECT_NEAR(cell.log.last[0], -1, 0.003) << "the brake ended the drift";
+  cell.submit(slide("x", -1, 0, 2, "waits"));
+  cell.run_until(at(5s));
+  EXPECT_EQ(cell.job("waits").waits_on.front().kind, Wait::Kind::stop);
+  EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
 TEST(Monitor, StopsTheArmsAndReportsLinksAndDistance) {
