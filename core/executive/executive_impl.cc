@@ -242,6 +242,7 @@ void Executive::Impl::take(const MotionReport& report) {
 }
 
 void Executive::Impl::watch() {
+  publisher_.tell_watch();
   const Motions& motions = execution_.motions();
   const Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
   std::vector<MonitorFinding> found = watch_.check_premises(seen);
@@ -254,6 +255,13 @@ void Executive::Impl::watch() {
     count_.look(watch_.near().apart);
     count_.look(watch_.near().at_mount);
     found.insert(found.end(), watch_.found().begin(), watch_.found().end());
+  }
+  std::vector<bool> stopping(cell_->arms.size(), false);
+  for (const MonitorFinding& finding : found) {
+    for (const ArmId arm : finding.stops) stopping[arm.index()] = true;
+  }
+  for (MonitorFinding& ahead : watch_.look_ahead(seen, stopping, execution_.gate())) {
+    found.push_back(std::move(ahead));
   }
   act_on(found);
   publisher_.tell_state(watch_.near().apart, clock_.now);
@@ -314,7 +322,10 @@ void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
     }
     publisher_.tell(std::move(event), clock_.now);
   }
-  if (!stopped.empty()) step(Stop(std::move(stopped)));
+  if (stopped.empty()) return;
+  const std::size_t count = stopped.size();
+  step(Stop(std::move(stopped)));
+  publisher_.tell_monitor_stop(count);
 }
 
 // ---- What is asked of all arms ----
@@ -404,7 +415,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   const bool is_within_reach = now != execution_.gate().scene();
   const std::vector<ArmId> arms = arms_in_question(execution_.gate().scene(), now);
   execution_.gate().look_at(now);
-  watch_.follow(query);
+  watch_.follow(query, scene_.scene());
   publisher_.scene_has_changed(clock_.now);
   if (is_within_reach) step(SceneChanged{arms});
 }

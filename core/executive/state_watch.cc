@@ -58,9 +58,6 @@ std::string sentence(const MonitorFinding& finding, const Cell& cell) {
     case Kind::implausible_feedback:
       return arm +
              ": positions changed faster than the joint can move: " + about_joint(finding, cell);
-    case Kind::missed_periods:
-      return "the monitor missed " + figure("%.0f", finding.value) + " periods in a row, limit " +
-             figure("%.0f", finding.limit);
     default:
       return {};
   }
@@ -74,10 +71,14 @@ ClearanceQuery StateWatch::query_of(const PlanningScenePtr& scene) {
 StateWatch::StateWatch(CellPtr cell, const PlanningScenePtr& scene)
     : period_(from_seconds(1.0 / cell->monitor.rate_hz)),
       query_(query_of(scene)),
-      premises_(std::move(cell)) {}
+      premises_(cell),
+      look_ahead_(cell, period_),
+      scene_(scene) {}
 
-void StateWatch::follow(ClearanceQuery& query) {
+void StateWatch::follow(ClearanceQuery& query, PlanningScenePtr scene) {
   std::swap(query_, query);
+  scene_ = std::move(scene);
+  reaches_.reset();
   seen_.resize(0);
 }
 
@@ -97,6 +98,44 @@ bool StateWatch::look(const Configuration& measured, const std::vector<bool>& mo
   if (query_.too_close(state) != 0) too_close = query_.closest_too_close(measured);
   found_ = present_.observe(too_close, moving, now);
   return true;
+}
+
+std::vector<MonitorFinding> StateWatch::look_ahead(const Observation& seen,
+                                                   const std::vector<bool>& stopping,
+                                                   const AuthorityGate& gate) {
+  struct Geometry final : ReachGeometry {
+    explicit Geometry(StateWatch& w) : watch(w) {}
+    ReachCheck& check() {
+      if (watch.reaches_ == nullptr) {
+        watch.reaches_ = std::make_unique<ReachCheck>(
+            watch.scene_, watch.scene_->cell().monitor.stop_clearance_m);
+      }
+      return *watch.reaches_;
+    }
+    std::optional<Proximity> may_meet(const Reach& a, const Reach& b) override {
+      return check().may_meet(a, b);
+    }
+    std::optional<Proximity> may_meet_scene(const Reach& reach) override {
+      return check().may_meet_scene(reach);
+    }
+    StateWatch& watch;
+  } geometry(*this);
+  // While both arms are where their certificates assume, the guard's invariant proves the pair.
+  struct Certified final : CertifiedPairs {
+    Certified(const PremiseCheck& p, const AuthorityGate& g) : premises(p), gate(g) {}
+    bool certifies(ArmId a, ArmId b) const override {
+      if (!gate.is_certified()) return false;
+      const bool holds = premises.is_as_certified(a) && premises.is_as_certified(b);
+      return holds || gate.guard().certifies(a, b);
+    }
+    bool certifies_scene(ArmId arm) const override {
+      if (!gate.is_certified()) return false;
+      return premises.is_as_certified(arm) || gate.guard().certifies_scene(arm);
+    }
+    const PremiseCheck& premises;
+    const AuthorityGate& gate;
+  } certified(premises_, gate);
+  return look_ahead_.check(seen, premises_, stopping, certified, geometry);
 }
 
 }  // namespace armloom

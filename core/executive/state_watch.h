@@ -1,9 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/collision/diagram/reach_check.h"
 #include "core/collision/state/clearance_query.h"
+#include "core/executive/authority_gate.h"
+#include "core/monitor/look_ahead.h"
 #include "core/monitor/premises.h"
 #include "core/monitor/present.h"
 
@@ -19,7 +23,7 @@ class StateWatch {
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
   // Call when the scene has changed: the next check then runs even if no arm has moved. Swaps the
   // query with the present one.
-  void follow(ClearanceQuery& query);
+  void follow(ClearanceQuery& query, PlanningScenePtr scene);
 
   [[nodiscard]] bool is_due(TimePoint now);
   // Checks the premises, and returns the new findings.
@@ -30,6 +34,12 @@ class StateWatch {
   // Checks the measured distances, and returns true. Does nothing and returns false if `measured`
   // has not changed since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
+  // Predicts which arms will come too close, and which must stop now; returns the new findings.
+  // Costs nothing while the premises hold and the guard certifies all motions. `stopping`: by ArmId,
+  // arms that are stopped anyway. Call after check_premises().
+  [[nodiscard]] std::vector<MonitorFinding> look_ahead(const Observation& seen,
+                                                       const std::vector<bool>& stopping,
+                                                       const AuthorityGate& gate);
   // Results of the last look() at a changed state.
   [[nodiscard]] const ClearanceQuery::Closest& near() const { return near_; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
@@ -40,6 +50,9 @@ class StateWatch {
   ClearanceQuery query_;
   PremiseCheck premises_;
   PresentCheck present_;
+  LookAhead look_ahead_;
+  PlanningScenePtr scene_;
+  std::unique_ptr<ReachCheck> reaches_;  // in scene_; made on first use
   Configuration seen_;
   ClearanceQuery::Closest near_;
   std::vector<MonitorFinding> found_;

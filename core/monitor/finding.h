@@ -22,7 +22,6 @@ struct MonitorFinding {
     late_feedback,         // no new feedback within the controller's timeout
     frozen_feedback,       // new feedback, but positions do not follow the commanded progress
     implausible_feedback,  // positions changed faster than the joints can move
-    missed_periods,        // the monitor itself was late
   };
   Kind kind;
   TimePoint time;
@@ -31,7 +30,7 @@ struct MonitorFinding {
   std::vector<ArmId> stops = {};      // ascending
   std::optional<ArmId> arm = {};      // the arm that violates a premise
   std::optional<JointId> joint = {};  // the joint with the largest value, if there is one
-  // Premises: measured value and limit. Feedback and beyond_authority: s; missed_periods: count;
+  // Premises: measured value and limit. Feedback and beyond_authority: s;
   // others: rad or m, of `joint`.
   double value = 0.0;
   double limit = 0.0;
@@ -58,8 +57,6 @@ struct MonitorFinding {
       return "frozen_feedback";
     case MonitorFinding::Kind::implausible_feedback:
       return "implausible_feedback";
-    case MonitorFinding::Kind::missed_periods:
-      return "missed_periods";
   }
   return nullptr;
 }

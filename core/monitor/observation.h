@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -18,6 +19,7 @@ struct ArmObservation {
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
   bool brakes = false;  // it comes to rest and has no other command
+  std::optional<Duration> rests_at = {};  // while it brakes: the progress where it will rest
   // Distance from the path at the start of the motion (rad, m), for which it was certified.
   double off_path = 0.0;
   Duration feedback_age{};  // since the last new report

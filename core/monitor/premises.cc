@@ -251,6 +251,12 @@ void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {
   for (const JointId joint : state.joints) state.rest[joint.value()] = measured[joint.value()];
 }
 
+PathDistance PremiseCheck::nearest(ArmId arm, const Observation& seen) const {
+  const ArmObservation& now = seen.arms[arm.index()];
+  return distance_from_path(*now.motion, joints(arm), now.measured,
+                            std::max(now.commanded, now.measured), seen.measured, 0.0);
+}
+
 // Sets where the arm rests: on its last path, which has no noise, if it is close enough.
 void PremiseCheck::begin_rest(ArmId arm, const Observation& seen) {
   ArmState& state = arms_[arm.index()];

@@ -48,6 +48,14 @@ class PremiseCheck {
   // Returns the measured velocities of all joints (rad/s, m/s) in the last period.
   [[nodiscard]] const Configuration& velocity() const { return velocity_; }
 
+  // Returns the point of the arm's motion that is nearest to the measured positions, between the
+  // measured and the commanded progress. Precondition: the arm has a motion.
+  [[nodiscard]] PathDistance nearest(ArmId arm, const Observation& seen) const;
+  // Returns the joints of the arm and of its gripper.
+  [[nodiscard]] const std::vector<JointId>& joints(ArmId arm) const {
+    return arms_[arm.index()].joints;
+  }
+
   [[nodiscard]] static double tracking_error(const Cell& cell, ArmId arm);
 
  private:

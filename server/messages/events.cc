@@ -60,8 +60,7 @@ FormatPtr<MonitorEvent> monitor_event_format() {
               text(), "Joint that exceeds the limit most"),
           output_if("value", of_premise([](const Told& event) { return event.finding.value; }),
                     number(kAnyNumber),
-                    "Measured value. With `joint`: rad or m; `missed_periods`: number of periods; "
-                    "others: s"),
+                    "Measured value: rad or m with `joint`, else s"),
           output_if("limit", of_premise([](const Told& event) { return event.finding.limit; }),
                     number(kAnyNumber), "Largest permitted value"),
           output_only("stopped", &Told::stopped, list(text()), "Arms that the monitor stopped"),

@@ -12,7 +12,7 @@ STORE, TABLES, MARK = 'server/store/job_store.cc', 'server/store/job_tables.cc',
 RESTART, ACCEPTED = 'server/durable/restart.cc', 'server/durable/accepted_requests.cc'
 HEAD, FRAMING, ROUTER = 'server/http/request_head.cc', 'server/http/framing.cc', 'server/http/router.cc'
 LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc'
-MONITOR, HUB, FAULTY = 'core/monitor/monitor.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
+MONITOR, HUB, FAULTY = 'core/monitor/present.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
 PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/arm/rate_law.cc'
 
 # Faults by the test program that runs first. If it does not find a fault, the other programs run.
