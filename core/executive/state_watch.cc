@@ -90,9 +90,14 @@ bool StateWatch::is_due(TimePoint now) {
 
 bool StateWatch::look(const Configuration& measured, const std::vector<bool>& moving,
                       TimePoint now) {
-  if (seen_.size() == measured.size() && seen_ == measured) return false;
+  const bool is_seen = seen_.size() == measured.size() && seen_ == measured;
+  if (is_seen && near_is_current_) return false;
   seen_ = measured;
-  near_ = query_.closest_apart(measured, kHorizon_m);
+  near_is_current_ = period_ >= kShortPeriod || now >= near_due_;
+  if (near_is_current_) {
+    near_ = query_.closest_apart(measured, kHorizon_m);
+    near_due_ = now + kNearPeriod;
+  }
   const Configuration* state[] = {&measured};
   std::vector<Proximity> too_close;
   if (query_.too_close(state) != 0) too_close = query_.closest_too_close(measured);

@@ -18,6 +18,10 @@ class StateWatch {
  public:
   // Pairs of links that are farther apart are not in near().
   inline static constexpr double kHorizon_m = 2.0;
+  // Distances for near() take most of the monitor's time. They are measured in every period, but
+  // not more often than this if the period is shorter than kShortPeriod.
+  inline static constexpr Duration kNearPeriod = std::chrono::milliseconds(20);
+  inline static constexpr Duration kShortPeriod = std::chrono::milliseconds(10);
 
   StateWatch(CellPtr cell, const PlanningScenePtr& scene);
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
@@ -35,8 +39,8 @@ class StateWatch {
   // has not changed since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
   // Predicts which arms will come too close, and which must stop now; returns the new findings.
-  // Costs nothing while the premises hold and the guard certifies all motions. `stopping`: by ArmId,
-  // arms that are stopped anyway. Call after check_premises().
+  // Costs nothing while the premises hold and the guard certifies all motions. `stopping`: by
+  // ArmId, arms that are stopped anyway. Call after check_premises().
   [[nodiscard]] std::vector<MonitorFinding> look_ahead(const Observation& seen,
                                                        const std::vector<bool>& stopping,
                                                        const AuthorityGate& gate);
@@ -54,6 +58,8 @@ class StateWatch {
   PlanningScenePtr scene_;
   std::unique_ptr<ReachCheck> reaches_;  // in scene_; made on first use
   Configuration seen_;
+  TimePoint near_due_{};
+  bool near_is_current_ = false;
   ClearanceQuery::Closest near_;
   std::vector<MonitorFinding> found_;
 };

@@ -6,20 +6,40 @@
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
+namespace {
+
+// An arm that goes on keeps its measured rate to within this.
+constexpr double kRateChange = 0.2;
+
+}  // namespace
 
 LookAhead::LookAhead(CellPtr cell, Duration period)
     : cell_(std::move(cell)),
       period_(period),
       off_path_(cell_->arms.size()),
-      stopping_reach_(cell_->arms.size()) {}
+      stopping_reach_(cell_->arms.size()),
+      paces_(cell_->arms.size()) {}
 
 // ---- Where arms can get ----
+
+// Returns the measured rate of progress: trajectory time per time, one as planned.
+std::optional<double> LookAhead::rate_of(ArmId arm, const Observation& seen) {
+  const ArmObservation& now = seen.arms[arm.index()];
+  Pace& pace = paces_[arm.index()];
+  if (pace.motion != now.motion) {
+    pace = {now.motion, now.measured, seen.time};
+  } else if (seen.time > pace.time) {
+    const double rate =
+        to_seconds(now.measured - pace.measured) / to_seconds(seen.time - pace.time);
+    pace = {now.motion, now.measured, seen.time, std::clamp(rate, 0.0, 1.0)};
+  }
+  return pace.rate;
+}
 
 LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
                                         const PremiseCheck& premises, bool is_stopping) {
   const ArmObservation& now = seen.arms[arm.index()];
-  const ControllerDescription& controller =
-      cell_->robots[cell_->arm(arm).robot.index()].controller;
+  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
   const Configuration zero = Configuration::Zero(seen.measured.size());
   Reach reach{.arm = arm, .rest = seen.measured, .shift = zero, .error = zero};
   ArmReach result{.braking = reach, .going = reach, .is_still = false};
@@ -32,11 +52,11 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     }
     reach.motion = now.motion;
     reach.from = std::min(now.measured, now.motion->duration());
-    const Duration end =
-        std::max(reach.from, std::min(now.authority, now.motion->duration()));
+    const Duration end = std::max(reach.from, std::min(now.authority, now.motion->duration()));
     // Progress at the planned rate, the highest, until the brake takes effect.
     const Duration commanded = std::max(now.commanded, now.measured);
-    brakes_to = now.rests ? reach.from : std::min(end, commanded + controller.reaction + known.reach);
+    brakes_to =
+        now.rests ? reach.from : std::min(end, commanded + controller.reaction + known.reach);
     if (now.brakes && now.rests_at) {
       brakes_to = std::clamp(*now.rests_at, reach.from, now.motion->duration());
     }
@@ -66,26 +86,33 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
         off.shift[j] = seen.measured[j] - path[static_cast<Eigen::Index>(row)];
         const double since_s = to_seconds(before ? seen.time - before->time : period_);
         const double then = before ? before->shift[j] : 0.0;
-        off.velocity[j] =
-            since_s > 0.0 ? (off.shift[j] - then) / since_s : before->velocity[j];
+        off.velocity[j] = since_s > 0.0 ? (off.shift[j] - then) / since_s : before->velocity[j];
       }
     }
     for (const JointId joint : premises.joints(arm)) {
       const auto j = static_cast<Eigen::Index>(joint.index());
       const double speed = std::abs(off.velocity[j]);
-      const double more =
-          speed * to_seconds(controller.reaction) + speed * speed / (2.0 * cell_->joint(joint).brake);
+      const double more = speed * to_seconds(controller.reaction) +
+                          speed * speed / (2.0 * cell_->joint(joint).brake);
       reach.shift[j] = off.shift[j] + std::copysign(0.5 * more, off.velocity[j]);
       reach.error[j] = 0.5 * more;
       if (more > 0.0) result.is_still = false;
     }
     off_path_[arm.index()] = std::move(off);
   }
+  const std::optional<double> rate = rate_of(arm, seen);
+  reach.slack = period_;
   result.braking = reach;
   result.braking.to = std::max(reach.from, brakes_to);
   result.going = std::move(reach);
   result.going.to = std::max(result.going.from, goes_to);
+  // An arm that stands on its path may set out at any time.
+  if (rate && *rate >= kRateChange) {
+    result.going.rate_low = *rate - kRateChange;
+    result.going.rate_high = std::min(1.0, *rate + kRateChange);
+  }
   result.may_go_on = result.going.to > result.braking.to;
+  if (!result.may_go_on) result.going = result.braking;
   return result;
 }
 
@@ -145,9 +172,9 @@ std::vector<MonitorFinding> LookAhead::check(const Observation& seen, const Prem
   std::vector<MonitorFinding> found;
   std::set<Conflicting> known;
   for (Predicted& one : predicted) {
-    const Conflicting pair{std::min(one.conflict.a, one.other.value_or(one.conflict.a)),
-                           one.other ? std::optional(std::max(one.conflict.a, *one.other))
-                                     : std::nullopt};
+    const Conflicting pair{
+        std::min(one.conflict.a, one.other.value_or(one.conflict.a)),
+        one.other ? std::optional(std::max(one.conflict.a, *one.other)) : std::nullopt};
     const bool is_new = !known_.contains(pair);
     known.insert(pair);
     MonitorFinding finding{.kind = MonitorFinding::Kind::approach,

@@ -86,7 +86,15 @@ class LookAhead {
     Duration reach{};
   };
   std::vector<StoppingReach> stopping_reach_;  // by ArmId; of the last motion
-  std::set<Conflicting> known_;                // predicted in the last period
+  struct Pace {
+    TrajectoryPtr motion;
+    Duration measured{};
+    TimePoint time{};
+    std::optional<double> rate = {};  // nullopt in the first period of a motion
+  };
+  [[nodiscard]] std::optional<double> rate_of(ArmId arm, const Observation& seen);
+  std::vector<Pace> paces_;      // by ArmId; of the last period
+  std::set<Conflicting> known_;  // predicted in the last period
 };
 
 }  // namespace armloom

@@ -133,19 +133,25 @@ TEST(Monitor, StopsAnArmBeforeAnArmThatStalls) {
   EXPECT_GE(cell.log.closest_m, 0.01);
 }
 
-// y is certified beside a path that x leaves. x cannot be stopped in time: it drifts fast. y must
-// not rely on its certificate any more.
-TEST(Monitor, StopsArmsThatAnArmOffItsPathEndangers) {
-  CellDescription description = crossing_description();
-  Crossing cell(description, "certified");
-  cell.submit(slide("y", -1, -0.25, 3, "to the edge"));
+// y is certified to pass x at rest. x then moves towards y's path, too far to leave enough room.
+TEST(Monitor, StopsAnArmThatAnArmOffItsRestEndangers) {
+  Crossing cell(crossing_description(), "certified");
+  cell.submit(slide("x", -1, -0.25, 3, "first"));
   cell.run_to_the_end();
-  cell.submit(slide("y", -0.25, -1, 3, "away"));
-  cell.run_until(at(3100ms));
-  drift(cell, "x", at(3100ms), 2.0, 300ms);
-  cell.run_until(at(8s));
-  EXPECT_EQ(findings(cell.log).front().finding.kind, Kind::unplanned_motion);
-  EXPECT_EQ(cell.job("away").state, JobState::succeeded) << "it is not in danger";
+  cell.submit(slide("y", -1, 1, 4, "passes"));
+  cell.run_until(at(3500ms));
+  ASSERT_EQ(cell.job("passes").state, JobState::running);
+  drift(cell, "x", at(3501ms), 4.0, 300ms);
+  cell.run_until(at(12s));
+  const auto found = findings(cell.log);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].finding.kind, Kind::unplanned_motion);
+  EXPECT_EQ(found[0].stopped, std::vector<std::string>{"x"});
+  EXPECT_EQ(found[1].finding.kind, Kind::approach);
+  EXPECT_EQ(found[1].stopped, std::vector<std::string>{"y"});
+  EXPECT_EQ(cell.job("passes").state, JobState::paused);
+  EXPECT_EQ(cell.job("passes").waits_on.front().detail, "monitor: " + found[1].text);
+  EXPECT_GE(cell.log.closest_m, 0.01);
 }
 
 TEST(Monitor, StoppedArmsCanBeMovedApart) {

@@ -1,6 +1,8 @@
 #include "core/collision/diagram/reach_check.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/collision/diagram/coordination_diagram.h"
 #include "core/collision/scene/arm_reach.h"
@@ -10,6 +12,33 @@ namespace armloom {
 namespace {
 
 constexpr double kPartingShare = 0.8;  // as in OrientedDiagram
+
+struct Times {
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+};
+
+// Returns when the arm may be in this interval of its reach.
+Times times_in(const Reach& reach, Duration from, Duration to) {
+  const double slack_s = to_seconds(reach.slack);
+  Times times;
+  const double least_s = to_seconds(from) - slack_s;  // farthest progress must reach this
+  if (least_s > 0.0) {
+    times.from_s =
+        reach.rate_high > 0.0 ? least_s / reach.rate_high : std::numeric_limits<double>::infinity();
+  }
+  // Beyond the end of its reach, an arm rests there.
+  const bool is_end = to >= reach.to - reach.from;
+  if (reach.rate_low > 0.0 && !is_end) times.to_s = (to_seconds(to) + slack_s) / reach.rate_low;
+  return times;
+}
+
+bool at_one_time(const ProgressBox& box, const Reach& a, const Reach& b) {
+  const Times in_a = times_in(a, box.from_a, box.to_a);
+  const Times in_b = times_in(b, box.from_b, box.to_b);
+  const double from_s = std::max(in_a.from_s, in_b.from_s);
+  return std::isfinite(from_s) && from_s <= std::min(in_a.to_s, in_b.to_s);
+}
 
 }  // namespace
 
@@ -42,7 +71,7 @@ std::optional<Proximity> ReachCheck::may_meet(const Reach& a, const Reach& b) {
                                   geometry_[b.arm.index()]->kinematics);
     pairs->second.set_limits(limits_);
   }
-  return closest(pairs->second, tube(a), tube(b));
+  return closest(pairs->second, a, &b, tube(b));
 }
 
 std::optional<Proximity> ReachCheck::may_meet_scene(const Reach& reach) {
@@ -57,17 +86,24 @@ std::optional<Proximity> ReachCheck::may_meet_scene(const Reach& reach) {
                                   still_->kinematics());
     pairs->second.set_limits(limits_);
   }
-  return closest(pairs->second, tube(reach), still_);
+  return closest(pairs->second, reach, nullptr, still_);
 }
 
-std::optional<Proximity> ReachCheck::closest(const PairSet& pairs, std::shared_ptr<MotionTube> a,
-                                             std::shared_ptr<MotionTube> b) {
+// `of_b`: null for static bodies.
+std::optional<Proximity> ReachCheck::closest(const PairSet& pairs, const Reach& of_a,
+                                             const Reach* of_b, std::shared_ptr<MotionTube> b) {
   if (pairs.empty()) return std::nullopt;
   const PlanningScene::Bodies& bodies = scene_->bodies();
-  TubePair tubes({&bodies, &pairs, scratch_}, std::move(a), std::move(b));
-  CoordinationDiagram diagram(tubes);
-  evaluations_ += diagram.refine(Duration{}, Duration{}, kResolution, kBudget);
-  std::vector<CoordinationDiagram::Blocked> blocked = diagram.blocked(Duration{}, Duration{});
+  TubePair tubes({&bodies, &pairs, scratch_}, tube(of_a), std::move(b));
+  const auto blocked_in = [&](CoordinationDiagram diagram) {
+    evaluations_ += diagram.refine(Duration{}, Duration{}, kResolution, kBudget);
+    auto cells = diagram.blocked(Duration{}, Duration{});
+    std::erase_if(cells, [&](const auto& cell) {
+      return of_b != nullptr && !at_one_time(cell.box, of_a, *of_b);
+    });
+    return cells;
+  };
+  std::vector<CoordinationDiagram::Blocked> blocked = blocked_in(CoordinationDiagram(tubes));
   if (blocked.empty()) return std::nullopt;
 
   // Pairs that are too close now may part.
@@ -80,9 +116,7 @@ std::optional<Proximity> ReachCheck::closest(const PairSet& pairs, std::shared_p
       return found == close.end() ? pair.limit_m
                                   : std::max(kPartingShare * found->distance_m, kTouching_m);
     });
-    CoordinationDiagram apart(tubes.with({&bodies, &parting, scratch_}));
-    evaluations_ += apart.refine(Duration{}, Duration{}, kResolution, kBudget);
-    blocked = apart.blocked(Duration{}, Duration{});
+    blocked = blocked_in(CoordinationDiagram(tubes.with({&bodies, &parting, scratch_})));
     if (blocked.empty()) return std::nullopt;
   }
 

@@ -14,10 +14,11 @@
 
 namespace armloom {
 
-// Decides if arms may come too close within what they can reach next. Every combination of
-// configurations of both reaches is covered. Errs only on the side of "too close": if the budget
-// ends, the answer is "may meet". Pairs of bodies that are too close already need only keep 80 % of
-// their present distance, so that arms can move apart. Not thread-safe.
+// Decides if arms may come too close within what they can reach next. Covers every combination of
+// configurations of both reaches that the arms may take at the same time (Reach::rate_low and
+// rate_high). Errs only on the side of "too close": if the budget ends, the answer is "may meet".
+// Pairs of bodies that are too close already need only keep 80 % of their present distance, so that
+// arms can move apart. Not thread-safe.
 class ReachCheck {
  public:
   // `clearance_m`: required distance (PairLimits::scaled).
@@ -36,9 +37,8 @@ class ReachCheck {
   inline static constexpr std::uint64_t kBudget = 400;  // cells of one question
 
  private:
-  [[nodiscard]] std::optional<Proximity> closest(const PairSet& pairs,
-                                                 std::shared_ptr<MotionTube> a,
-                                                 std::shared_ptr<MotionTube> b);
+  [[nodiscard]] std::optional<Proximity> closest(const PairSet& pairs, const Reach& of_a,
+                                                 const Reach* of_b, std::shared_ptr<MotionTube> b);
   [[nodiscard]] std::shared_ptr<MotionTube> tube(const Reach& reach);
 
   PlanningScenePtr scene_;
