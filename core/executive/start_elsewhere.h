@@ -3,6 +3,7 @@
 #include "core/base/problem.h"
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
+#include "core/trajectory/validate.h"
 
 namespace armloom {
 

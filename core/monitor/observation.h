@@ -18,7 +18,7 @@ struct ArmObservation {
   Duration authority{};  // largest permitted progress
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
-  bool brakes = false;  // it comes to rest and has no other command
+  bool brakes = false;                    // it comes to rest and has no other command
   std::optional<Duration> rests_at = {};  // while it brakes: the progress where it will rest
   // Distance from the path at the start of the motion (rad, m), for which it was certified.
   double off_path = 0.0;

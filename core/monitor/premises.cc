@@ -130,7 +130,8 @@ void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding findi
   known.holds = true;
   if (!is_new) return;
   finding.arm = arm;
-  finding.stops = {arm};
+  // The link of an arm without reports stops it (core/executive/link_watch.h).
+  if (finding.kind != Kind::late_feedback) finding.stops = {arm};
   found.push_back(std::move(finding));
 }
 

@@ -31,7 +31,8 @@ class PremiseCheck {
  public:
   explicit PremiseCheck(CellPtr cell);
 
-  // Returns the new findings of this period; each stops its arm. A violation is reported when it
+  // Returns the new findings of this period; each stops its arm, except
+  // late_feedback. A violation is reported when it
   // begins, and again if the arm moves on after it came to rest. `time` grows from call to call.
   [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen);
   // Checks an arm whose controller reports "finished". Returns a finding if it is not at the goal.

@@ -84,7 +84,8 @@ std::set<ArmId> greedy(const Group& group) {
       if (!stops.contains(conflict->a)) ++open[conflict->a];
       if (conflict->b && !b_stops) ++open[*conflict->b];
     }
-    const auto most = std::ranges::max_element(open, {}, [](const auto& arm) { return arm.second; });
+    const auto most =
+        std::ranges::max_element(open, {}, [](const auto& arm) { return arm.second; });
     stops.insert(most->first);
   }
   return stops;
