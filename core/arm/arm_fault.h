@@ -16,6 +16,9 @@ struct ArmFault {
     drop_feedback,
     // The controller gives up once: brakes and reports a fault, in the present or next motion.
     fault,
+    // The arm's first joint leaves its path, or the position where it rests, at `value` rad/s
+    // (m/s), until the arm is braked. The deviation remains.
+    drift,
   };
   Kind kind;
   TimePoint from;

@@ -5,7 +5,8 @@
 
 namespace armloom {
 
-FaultyArm::FaultyArm(std::unique_ptr<ArmController> inner) : inner_(std::move(inner)) {}
+FaultyArm::FaultyArm(std::unique_ptr<ArmController> inner, Push push)
+    : inner_(std::move(inner)), push_(std::move(push)) {}
 
 void FaultyArm::inject(std::uint64_t id, ArmFault fault) { faults_.insert_or_assign(id, fault); }
 
@@ -36,6 +37,7 @@ void FaultyArm::carry_out(const ArmCommand::Follow& follow) {
   granted_ = allowed_ = follow.authority;
   creep_s_.reset();
   under_way_ = true;
+  is_braked_ = false;
   pass_on(passed);
   follow_ = {acknowledged_, inner_number_};
 }
@@ -55,6 +57,11 @@ void FaultyArm::carry_out(const ArmCommand::Release& release) {
   giving_up_ = false;
 }
 
+void FaultyArm::carry_out(const ArmCommand::Brake& brake) {
+  is_braked_ = true;
+  pass_on(brake);
+}
+
 // ---- Each control cycle ----
 
 const ArmFeedback* FaultyArm::poll(TimePoint now) {
@@ -66,6 +73,8 @@ const ArmFeedback* FaultyArm::poll(TimePoint now) {
 }
 
 void FaultyArm::act(Duration period) {
+  const ArmFault* drift = active(ArmFault::Kind::drift);
+  if (drift != nullptr && may_drift()) push_(drift->value * to_seconds(period));
   const bool sound = faults_.empty() && !giving_up_ && allowed_ == granted_;
   if (sound || !under_way_) return;
   const bool moves = feedback_.phase == Phase::moving || feedback_.phase == Phase::braking;
@@ -83,7 +92,16 @@ void FaultyArm::report(const ArmFeedback& inner) {
     feedback_.phase = Phase::fault;
     feedback_.detail = "the simulated controller gave up";
   }
-  if (under_way_ && fault_changes()) feedback_.settled = false;
+  if ((under_way_ && fault_changes()) || may_drift()) feedback_.settled = false;
+  if (may_drift() && active(ArmFault::Kind::drift) != nullptr) feedback_.at_rest = false;
+}
+
+// Returns true if the arm drifts now or later without a further command.
+bool FaultyArm::may_drift() const {
+  return push_ && !is_braked_ && std::ranges::any_of(faults_, [this](const auto& entry) {
+           const ArmFault& fault = entry.second;
+           return fault.kind == ArmFault::Kind::drift && !(fault.until && *fault.until <= now_);
+         });
 }
 
 // Returns true if the faults' effect on the present motion changes with time.
@@ -99,7 +117,7 @@ bool FaultyArm::fault_changes() const {
 }
 
 void FaultyArm::give_up() {
-  giving_up_ = true;
+  giving_up_ = is_braked_ = true;
   pass_on(ArmCommand::Brake{});
   std::erase_if(faults_, [this](const auto& entry) {
     return entry.second.kind == ArmFault::Kind::fault && entry.second.from <= now_;

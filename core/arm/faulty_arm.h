@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,7 +15,10 @@ namespace armloom {
 // controller, on the controller's side of the contract. Deterministic.
 class FaultyArm final : public ArmController, public FaultTarget {
  public:
-  explicit FaultyArm(std::unique_ptr<ArmController> inner);
+  // Moves the inner controller's first joint off its path by this distance (rad, m).
+  using Push = std::function<void(double)>;
+  // Without `push`, the arm cannot drift.
+  explicit FaultyArm(std::unique_ptr<ArmController> inner, Push push = {});
 
   void inject(std::uint64_t id, ArmFault fault) override;
   bool remove(std::uint64_t id) override;
@@ -33,6 +37,7 @@ class FaultyArm final : public ArmController, public FaultTarget {
   void carry_out(const ArmCommand::Follow& follow);
   void carry_out(const ArmCommand::Extend& extend);
   void carry_out(const ArmCommand::Release& release);
+  void carry_out(const ArmCommand::Brake& brake);
   template <class Command>
   void carry_out(const Command& command) {
     pass_on(command);
@@ -46,6 +51,7 @@ class FaultyArm final : public ArmController, public FaultTarget {
   void give_up();
   void report(const ArmFeedback& inner);
   [[nodiscard]] bool fault_changes() const;
+  [[nodiscard]] bool may_drift() const;
 
   std::unique_ptr<ArmController> inner_;
   std::map<std::uint64_t, ArmFault> faults_;
@@ -60,6 +66,8 @@ class FaultyArm final : public ArmController, public FaultTarget {
   // During a `slow` fault: authority (s) that it grants, growing with time.
   std::optional<double> creep_s_;
   bool giving_up_ = false;
+  Push push_;
+  bool is_braked_ = false;  // since the last follow
   ArmFeedback feedback_;
 };
 

@@ -27,8 +27,9 @@ Eigen::VectorXd home_of(const Cell& cell, const Arm& arm) {
 ControllerTypes simulated_controllers() {
   const auto make = [](const CellPtr& cell, ArmId arm, Eigen::VectorXd q,
                        std::uint64_t seed) -> Result<MadeController> {
-    auto made =
-        std::make_unique<FaultyArm>(std::make_unique<SimulatedArm>(cell, arm, std::move(q), seed));
+    auto simulated = std::make_unique<SimulatedArm>(cell, arm, std::move(q), seed);
+    const auto push = [at = simulated.get()](double by) { at->push(by); };
+    auto made = std::make_unique<FaultyArm>(std::move(simulated), push);
     FaultyArm* faults = made.get();
     return MadeController{std::move(made), faults};
   };

@@ -84,6 +84,7 @@ std::string SimulatedArm::mapped(const ArmCommand::Follow& follow) {
   }
   path_ = {follow.trajectory, std::move(rows), at, at};
   offset_ = {std::move(offset), away > 0.0};
+  pushed_ = 0.0;
   return {};
 }
 
@@ -285,6 +286,13 @@ void SimulatedArm::place() {
     const auto i = static_cast<Eigen::Index>(j);
     if (path_.rows[j] >= 0) position_[i] = path_.at[path_.rows[j]] + offset_.left[i];
   }
+  if (path_.rows[0] >= 0) position_[0] += pushed_;
+}
+
+void SimulatedArm::push(double by) {
+  pushed_ += by;
+  position_[0] += by;
+  if (controller_.noise_rad <= 0.0) feedback_.measured = position_;
 }
 
 void SimulatedArm::measure() {

@@ -43,6 +43,9 @@ class SimulatedArm final : public ArmController {
   void send(const ArmCommand& command) override;
   [[nodiscard]] const ArmFeedback* poll(TimePoint now) override;
   [[nodiscard]] const Eigen::VectorXd* true_positions() const override { return &position_; }
+  // Moves the first joint off its path, or off its rest, by this distance (rad, m). The distance
+  // remains until the arm follows another motion.
+  void push(double by);
   // Runs one control cycle up to `now` and returns the arm's state. Called by poll().
   const ArmFeedback& tick(TimePoint now);
 
@@ -87,6 +90,7 @@ class SimulatedArm final : public ArmController {
     bool is_any = false;
   };
   Offset offset_;
+  double pushed_ = 0.0;                      // distance of the first joint from the path by push()
   std::optional<Eigen::VectorXd> coasting_;  // velocities of joints_ while the drives are off
   bool switches_off_ = false;                // at the end of this brake
   ArmFeedback feedback_;

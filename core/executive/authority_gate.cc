@@ -194,7 +194,7 @@ Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
         others.try_emplace(*jobs_[a], Motion{*jobs_[a], position.motion, position.measured})
             .first->second;
     other.progress = std::min(other.progress, position.measured);
-    other.off_path = std::max(other.off_path, position.off_path);
+    other.off_path = std::max(other.off_path, position.error());
   }
   for (const auto& [id, other] : others) question.others.push_back(other);
   question.candidates = {Motion{.job = job,

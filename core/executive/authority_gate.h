@@ -37,6 +37,10 @@ class AuthorityGate {
   void look_at(const SceneFingerprint& present);
   [[nodiscard]] const SceneFingerprint& scene() const { return guard_.scene(); }
   void forget(const TrajectoryPtr& motion) { guard_.forget(motion); }
+  void leaves_path(ArmId arm, double distance) { guard_.leaves_path(arm, distance); }
+  // Not under timed_discrete.
+  [[nodiscard]] bool is_certified() const { return is_certified_; }
+  [[nodiscard]] const AuthorityGuard& guard() const { return guard_; }
 
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& motion);
   void grant(const Grant& grant);

@@ -14,7 +14,7 @@
 #include "core/coordination/verdict.h"
 #include "core/jobs/job.h"
 #include "core/model/cell.h"
-#include "core/monitor/monitor.h"
+#include "core/monitor/finding.h"
 
 namespace armloom {
 
@@ -178,7 +178,9 @@ struct SceneView {
 
 struct MonitorEvent {
   MonitorFinding finding;
-  std::vector<std::string> arms;     // of the pair
+  std::string text;                  // one sentence
+  std::string joint;                 // name; empty if the finding has none
+  std::vector<std::string> arms;     // of the pair, or the arm that violates a premise
   std::vector<std::string> stopped;  // names of the arms that were stopped
 };
 // The guard refused authority that the scheduler had granted. This is a defect of the scheduler,

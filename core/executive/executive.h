@@ -77,6 +77,9 @@ class Observer {
   virtual void on_stops(const std::vector<ArmId>& /*stopped*/) {}
   // Called for each answered question of the scheduler.
   virtual void on_judged(std::uint64_t /*evaluations*/) {}
+  // Called when a monitor period begins, and when the monitor has stopped arms in it.
+  virtual void on_watch() {}
+  virtual void on_monitor_stop(std::size_t /*arms*/) {}
   // Called in every monitor period.
   virtual void on_state(const StateFrame& frame) = 0;
 };

@@ -6,6 +6,7 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
+#include "core/executive/observe.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -14,10 +15,10 @@ namespace {
 // Cause of the stop of an arm whose controller has not connected yet.
 const std::string kConnects = "waiting for its controller: ";
 
-// Those of the pair, and those that stop.
 MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
-  MonitorEvent event{.finding = finding};
-  for (const auto& arm : {finding.proximity.arm_a, finding.proximity.arm_b}) {
+  MonitorEvent event{.finding = finding, .text = sentence(finding, cell)};
+  if (finding.joint) event.joint = cell.joint(*finding.joint).name;
+  for (const auto& arm : {finding.arm, finding.proximity.arm_a, finding.proximity.arm_b}) {
     if (arm && (event.arms.empty() || event.arms.front() != cell.arm(*arm).name)) {
       event.arms.push_back(cell.arm(*arm).name);
     }
@@ -54,7 +55,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                   execution_.starts(), scene_},
                  observer),
       intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
-      watch_(scene_.scene()),
+      watch_(cell_, scene_.scene()),
       links_(cell_->arms.size()) {
   follow_policy();
 }
@@ -194,7 +195,7 @@ void Executive::Impl::tick(TimePoint now) {
   }
   for (const MotionReport& report : execution_.tick(now)) {
     clock_.quiet = false;
-    if (!execution_.keeps_back(report)) step(report);
+    if (!execution_.keeps_back(report)) take(report);
   }
   if (now >= clock_.shows_check_at) show_check();
   forget_rolled_back();
@@ -222,19 +223,47 @@ TimePoint Executive::Impl::settled_until() const {
   return std::min(clock_.wake_at.value_or(TimePoint::max()), clock_.held.next());
 }
 
-void Executive::Impl::watch() {
+// A motion that ended away from its goal has failed.
+void Executive::Impl::take(const MotionReport& report) {
+  const Job* job = scheduler_.find(report.job);
+  if (report.kind != MotionReport::Kind::finished || job == nullptr) return step(report);
   const Motions& motions = execution_.motions();
+  std::vector<MonitorFinding> found;
+  for (const ArmId arm : job->trajectory->arms()) {
+    auto early = watch_.premises().finished(arm, *job->trajectory, motions.measured(), clock_.now);
+    if (early) found.push_back(std::move(*early));
+  }
+  if (found.empty()) return step(report);
+  MotionReport failed = report;
+  failed.kind = MotionReport::Kind::faulted;
+  failed.detail = sentence(found.front(), *cell_);
+  step(failed);
+  act_on(found);
+}
+
+void Executive::Impl::watch() {
+  publisher_.tell_watch();
+  const Motions& motions = execution_.motions();
+  const Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
+  std::vector<MonitorFinding> found = watch_.check_premises(seen);
   std::vector<bool> moving;
-  for (ArmId arm : all_arms(*cell_)) moving.push_back(motions.moving(arm));
-  if (watch_.look(motions.measured(), moving, clock_.now)) {
+  for (ArmId arm : all_arms(*cell_)) {
+    moving.push_back(motions.moving(arm));
+    execution_.gate().leaves_path(arm, watch_.premises().deviation(arm));
+  }
+  if (watch_.look(seen.measured, moving, clock_.now)) {
     count_.look(watch_.near().apart);
     count_.look(watch_.near().at_mount);
-    for (const MonitorFinding& finding : watch_.found()) {
-      if (!finding.stops.empty()) count_.monitor_stop();
-      publisher_.tell(event_of(finding, *cell_), clock_.now);
-      if (!finding.stops.empty()) step(Stop{finding.stops, sentence(finding)});
-    }
+    found.insert(found.end(), watch_.found().begin(), watch_.found().end());
   }
+  std::vector<bool> stopping(cell_->arms.size(), false);
+  for (const MonitorFinding& finding : found) {
+    for (const ArmId arm : finding.stops) stopping[arm.index()] = true;
+  }
+  for (MonitorFinding& ahead : watch_.look_ahead(seen, stopping, execution_.gate())) {
+    found.push_back(std::move(ahead));
+  }
+  act_on(found);
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
 
@@ -277,6 +306,26 @@ void Executive::Impl::locate(ArmId arm) {
   const Eigen::VectorXd off = link.feedback().measured - joints_of(scheduler_.rest(), joints);
   if (off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot)) return;
   step(Located{arm, link.feedback().measured});
+}
+
+// Publishes the findings and stops their arms, each with the first finding that names it as cause.
+void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
+  std::vector<Stop::StoppedArm> stopped;
+  for (const MonitorFinding& finding : found) {
+    if (!finding.stops.empty()) count_.monitor_stop();
+    MonitorEvent event = event_of(finding, *cell_);
+    for (const ArmId arm : finding.stops) {
+      if (std::ranges::find(stopped, arm, &Stop::StoppedArm::arm) != stopped.end()) continue;
+      stopped.push_back({arm, "monitor: " + event.text});
+      // The scheduler brakes motions only.
+      if (!execution_.motions().trajectory(arm)) execution_.brake(arm);
+    }
+    publisher_.tell(std::move(event), clock_.now);
+  }
+  if (stopped.empty()) return;
+  const std::size_t count = stopped.size();
+  step(Stop(std::move(stopped)));
+  publisher_.tell_monitor_stop(count);
 }
 
 // ---- What is asked of all arms ----
@@ -374,7 +423,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   const bool is_within_reach = now != execution_.gate().scene();
   const std::vector<ArmId> arms = arms_in_question(execution_.gate().scene(), now);
   execution_.gate().look_at(now);
-  watch_.follow(query);
+  watch_.follow(query, scene_.scene());
   publisher_.scene_has_changed(clock_.now);
   if (is_within_reach) step(SceneChanged{arms});
 }

@@ -103,9 +103,11 @@ class Executive::Impl {
   void certify(const Question& question);
   void refused(JobId job, const GuardRefusal& refusal);
   void forget_rolled_back();
+  void take(const MotionReport& report);
   void watch();
   void watch_links();
   void locate(ArmId arm);
+  void act_on(const std::vector<MonitorFinding>& found);
   void scene_has_changed(ClearanceQuery& query);
 
   // Set when the shutdown has begun.

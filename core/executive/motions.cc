@@ -192,6 +192,13 @@ bool Motions::all_settled() const {
   return std::ranges::all_of(arms_, [](const auto& arm) { return arm.link.feedback().settled; });
 }
 
+TrajectoryPtr Motions::trajectory(ArmId arm) const {
+  for (const auto& [job, motion] : motions_) {
+    if (std::ranges::count(motion.trajectory->arms(), arm) > 0) return motion.trajectory;
+  }
+  return nullptr;
+}
+
 double Motions::deviation(ArmId arm) const {
   for (const auto& [job, motion] : motions_) {
     const auto& arms = motion.trajectory->arms();

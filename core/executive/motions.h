@@ -26,6 +26,8 @@ class Motions {
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
   void grant(const Grant& grant);
   void brake(JobId job);
+  // Brakes an arm that may have no motion.
+  void brake(ArmId arm) { command(arm, ArmCommand::Brake{}); }
   void brake_all();
   // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
   void set_speed(std::vector<double> shares);
@@ -51,6 +53,8 @@ class Motions {
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
+  // Returns null if the arm has no motion.
+  [[nodiscard]] TrajectoryPtr trajectory(ArmId arm) const;
   // An arm of a motion under way; times are trajectory time. under_way() returns them in order of
   // jobs.
   struct UnderWay {

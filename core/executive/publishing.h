@@ -48,6 +48,8 @@ class Publisher {
   void tell_arms(TimePoint now);
   void tell_stops();
   void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
+  void tell_watch() { observer_.on_watch(); }
+  void tell_monitor_stop(std::size_t arms) { observer_.on_monitor_stop(arms); }
   // Publishes the queue lists if they have changed. Long lists are published less often, but a
   // change of "all arms are stopped" or of the speed override always at once.
   void queue_may_have_changed(TimePoint now);

@@ -133,11 +133,33 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
     position.authority = position.measured;
   }
   position.at_rest = true;
+  position.left_path = 0.0;
   for (const JointId joint : arms_[arm.index()].joints) q_[joint.value()] = measured[joint.value()];
   if (position.motion) position.off_path = off(*position.motion, arm, position.measured);
 }
 
+void AuthorityGuard::leaves_path(ArmId arm, double distance) {
+  ArmPosition& position = positions_[arm.index()];
+  if (!position.at_rest) position.left_path = std::max(position.left_path, distance);
+}
+
 // ---- Authority ----
+
+bool AuthorityGuard::certifies(ArmId arm, ArmId other) const {
+  if (are_apart(arm, other)) return true;
+  const auto from = [&](ArmId one, ArmId two) {
+    const ArmPosition& own = positions_[one.index()];
+    const auto of = motions_.find(own.motion.get());
+    return of != motions_.end() && !between(of->second, one, own, two);
+  };
+  return from(arm, other) || from(other, arm);
+}
+
+bool AuthorityGuard::certifies_scene(ArmId arm) const {
+  const ArmPosition& own = positions_[arm.index()];
+  const auto of = motions_.find(own.motion.get());
+  return of != motions_.end() && sees_scene(of->second, arm, own);
+}
 
 bool AuthorityGuard::is_valid(const PairCertificate& pair) const {
   return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;
@@ -189,7 +211,7 @@ std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSi
   if (!is_still) return std::nullopt;
   if (!side.motion) return position.at_rest ? std::optional(Interval{}) : std::nullopt;
   if (side.motion == position.motion) {
-    const bool holds = side.from <= position.measured && position.off_path <= side.error_of(arm);
+    const bool holds = side.from <= position.measured && position.error() <= side.error_of(arm);
     return holds ? std::optional(Interval{position.measured, position.authority}) : std::nullopt;
   }
   for (const Duration end : {Duration{}, side.motion->duration()}) {

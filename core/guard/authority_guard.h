@@ -20,7 +20,10 @@ struct ArmPosition {
   Duration measured{};        // progress proven by feedback
   Duration authority{};       // largest permitted progress; `measured` at rest
   bool at_rest = true;
-  double off_path = 0.0;  // largest distance of a joint from the path, at the last rest (rad, m)
+  double off_path = 0.0;   // largest distance of a joint from the path, at the last rest (rad, m)
+  double left_path = 0.0;  // likewise, as measured since the last rest; zero within the tolerance
+
+  [[nodiscard]] double error() const { return off_path > left_path ? off_path : left_path; }
 };
 
 // The last check before every start, resume and grant of authority (README.md). Invariants:
@@ -57,6 +60,16 @@ class AuthorityGuard {
   void acknowledges(ArmId arm, Duration authority);
   // Reports a resting arm: its progress, and all joints of the cell.
   void rests(ArmId arm, Duration progress, const Configuration& measured);
+
+  // Reports that a moving arm was measured at this distance from its path (rad, m). Certificates
+  // for a smaller error no longer cover the arm, until it rests.
+  void leaves_path(ArmId arm, double distance);
+
+  // Returns true if a certificate covers the present positions of the two arms up to their
+  // authority.
+  [[nodiscard]] bool certifies(ArmId arm, ArmId other) const;
+  // Returns true if a certificate covers the arm's present motion in the present scene.
+  [[nodiscard]] bool certifies_scene(ArmId arm) const;
 
   // Trajectory time at which a start or resume begins; nullopt for a grant to moving arms.
   using From = std::optional<Duration>;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -93,8 +94,17 @@ struct MotionReport {
 };
 // Stops these arms and starts nothing on them until Resume.
 struct Stop {
-  std::vector<ArmId> arms;
-  std::string cause;  // "operator", or the monitor's sentence
+  struct StoppedArm {
+    ArmId arm;
+    std::string cause;  // "operator", or the monitor's sentence
+  };
+  std::vector<StoppedArm> arms;
+
+  explicit Stop(std::vector<StoppedArm> each) : arms(std::move(each)) {}
+  // Stops all arms for the same cause.
+  Stop(const std::vector<ArmId>& all, const std::string& cause) {
+    for (const ArmId arm : all) arms.push_back({arm, cause});
+  }
 };
 struct Resume {
   std::vector<ArmId> arms;

@@ -239,13 +239,13 @@ void give_up(State& state, Record& record, const AfterStop& after) {
 
 void stop_arms(State& state, const Stop& stop) {
   ++state.version;  // an answer that is under way shall start nothing on these arms
-  for (ArmId arm : stop.arms) {
-    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause);
+  for (const auto& [arm, cause] : stop.arms) {
+    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, cause);
     if (state.jobs.queues()[arm].empty()) continue;
     Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place
     brake(state, record, {});
-    state.jobs.set_wait(record, {.kind = Wait::Kind::stop, .arm = arm, .detail = stop.cause});
+    state.jobs.set_wait(record, {.kind = Wait::Kind::stop, .arm = arm, .detail = cause});
   }
 }
 

@@ -81,7 +81,7 @@ void find_faults_of_access(const ServeOptions& options, const std::string& addre
                                "--tls-certificate and --tls-key must be given together"});
   }
   const bool asks = !options.tokens.empty(), is_sealed = !options.tls_certificate.empty();
-  if (reach_of(address) == Reach::others && !(asks && is_sealed)) {
+  if (reach_of(address) == AddressReach::others && !(asks && is_sealed)) {
     const std::string danger = asks ? "tokens sent to " + address + " could be read on the network"
                                     : "everybody who can reach " + address + " could move the arms";
     const std::string how =

@@ -5,8 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "core/executive/state_watch.h"
-
 namespace armloom {
 AlertBook::AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper)
     : stream_(std::move(stream)), clock_(clock), keeper_(keeper) {
@@ -24,7 +22,7 @@ void AlertBook::happened(const Event& event) {
     alert.text = told->text;
   } else if (const auto* found = std::get_if<MonitorEvent>(&event.body)) {
     alert.level = found->stopped.empty() ? "warning" : "error";
-    alert.text = sentence(found->finding);
+    alert.text = "monitor: " + found->text;
   } else {
     return;
   }

@@ -43,11 +43,11 @@ std::string client_of(const Socket& socket) {
 
 }  // namespace
 
-Reach reach_of(const std::string& address) {
+AddressReach reach_of(const std::string& address) {
   ErrorCode ec;
   const auto ip = asio::ip::make_address(address, ec);
-  if (ec) return Reach::nobody;
-  return ip.is_loopback() ? Reach::this_machine : Reach::others;
+  if (ec) return AddressReach::nobody;
+  return ip.is_loopback() ? AddressReach::this_machine : AddressReach::others;
 }
 
 class HttpServer::Impl {

@@ -19,8 +19,8 @@ struct TlsFiles {
 
 // Clients that can reach a listener on the address. The first value means that the address is not
 // an IP address.
-enum class Reach { nobody, this_machine, others };
-[[nodiscard]] Reach reach_of(const std::string& address);
+enum class AddressReach { nobody, this_machine, others };
+[[nodiscard]] AddressReach reach_of(const std::string& address);
 
 // The listening socket and the one thread that serves every connection.
 class HttpServer {

@@ -51,6 +51,8 @@ class Broadcast final : public Observer {
   void on_rest(bool at_rest) override;
   void on_stops(const std::vector<ArmId>& stopped) override;
   void on_judged(std::uint64_t evaluations) override { parts_.metrics.judged(evaluations); }
+  void on_watch() override { parts_.metrics.watch_begins(); }
+  void on_monitor_stop(std::size_t arms) override { parts_.metrics.monitor_stopped(arms); }
   void on_state(const StateFrame& frame) override;
 
  private:

@@ -25,19 +25,44 @@ FormatPtr<MonitorEvent> monitor_event_format() {
   const auto links = [](const Told& event) {
     return std::pair(event.finding.proximity.body_a, event.finding.proximity.body_b);
   };
+  const auto of_pair = [](auto value) {
+    return [value](const Told& event) {
+      return is_about_pair(event.finding.kind) ? std::optional(value(event)) : std::nullopt;
+    };
+  };
+  const auto of_premise = [](auto value) {
+    return [value](const Told& event) {
+      return is_about_pair(event.finding.kind) ? std::nullopt : std::optional(value(event));
+    };
+  };
   return named(
-      "MonitorFinding", "",
+      "MonitorFinding",
+      "`contact`, `clearance`: two bodies are too close. `approach`: two bodies will be too close "
+      "unless an arm stops now. The other kinds report a violated premise of the certificates: an "
+      "arm that is not where it should be, or feedback that is late, frozen or implausible.",
       object<Told>({
           output_only(
               "kind", [](const Told& event) { return event.finding.kind; }, choice<Kind>()),
-          output_only("arms", &Told::arms, list(text())),
-          output_only("links", links, pair_of(text())),
-          output_only(
-              "clearance_m", [](const Told& event) { return event.finding.proximity.clearance_m; },
-              number(kAnyNumber), "Clearance found"),
-          output_only(
-              "limit_m", [](const Told& event) { return event.finding.limit_m; },
-              number(kAnyNumber), "Clearance required"),
+          output_only("text", &Told::text, text(), "One sentence"),
+          output_only("arms", &Told::arms, list(text()),
+                      "Arms of the pair, or the arm that violates a premise"),
+          output_if("links", of_pair(links), pair_of(text())),
+          output_if("clearance_m",
+                    of_pair([](const Told& event) { return event.finding.proximity.clearance_m; }),
+                    number(kAnyNumber), "Clearance found"),
+          output_if("limit_m", of_pair([](const Told& event) { return event.finding.limit_m; }),
+                    number(kAnyNumber), "Clearance required"),
+          output_if(
+              "joint",
+              [](const Told& event) {
+                return event.joint.empty() ? std::nullopt : std::optional(event.joint);
+              },
+              text(), "Joint that exceeds the limit most"),
+          output_if("value", of_premise([](const Told& event) { return event.finding.value; }),
+                    number(kAnyNumber),
+                    "Measured value: rad or m with `joint`, else s"),
+          output_if("limit", of_premise([](const Told& event) { return event.finding.limit; }),
+                    number(kAnyNumber), "Largest permitted value"),
           output_only("stopped", &Told::stopped, list(text()), "Arms that the monitor stopped"),
       }));
 }

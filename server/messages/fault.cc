@@ -20,6 +20,7 @@ namespace {
 using FaultKind = ArmFault::Kind;
 
 constexpr double kFaultTimeMax_s = 1e6;
+constexpr double kDriftMax = 10.0;  // rad/s, m/s
 constexpr std::size_t kFaultsFileMax = 10'000;
 
 struct KindRule {
@@ -28,14 +29,15 @@ struct KindRule {
   double value_max;  // highest `value`; zero if the kind has none
   bool lasts;        // may have `for_s`
 };
-constexpr std::array<KindRule, 5> kKinds{
+constexpr std::array<KindRule, 6> kKinds{
     {{FaultKind::stall, "stall", 0.0, true},
      {FaultKind::slow, "slow", 1.0, true},
      {FaultKind::late_start, "late_start", kFaultTimeMax_s, true},
      {FaultKind::drop_feedback, "drop_feedback", 0.0, true},
-     {FaultKind::fault, "fault", 0.0, false}}};
-constexpr std::array<const char*, 6> kKindsToCome{"freeze_feedback", "drift",       "reject",
-                                                  "runaway",         "ignore_stop", "noise"};
+     {FaultKind::fault, "fault", 0.0, false},
+     {FaultKind::drift, "drift", kDriftMax, true}}};
+constexpr std::array<const char*, 5> kKindsToCome{"freeze_feedback", "reject", "runaway",
+                                                  "ignore_stop", "noise"};
 
 const KindRule& rule_of(FaultKind kind) {
   return *std::ranges::find(kKinds, kind, &KindRule::kind);
@@ -114,8 +116,8 @@ class KindsOwn final : public CustomPart<FaultRequest> {
                     seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     describe_member(object,
                     {"value",
-                     "`slow`: share of the speed, 0 to 1; `late_start`: delay in seconds; not "
-                     "allowed for other kinds",
+                     "`slow`: share of the speed, 0 to 1; `late_start`: delay in seconds; "
+                     "`drift`: rad/s or m/s, up to 10; not allowed for other kinds",
                      Need::optional,
                      {}},
                     number({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
@@ -182,7 +184,9 @@ FormatPtr<FaultRequest> fault_request_format() {
       "A fault of a simulated arm. `stall`: the arm stays where it is on its path. `slow`: the arm "
       "follows its path at a share of its speed. `late_start`: the arm begins each motion late. "
       "`drop_feedback`: no report of the arm arrives. `fault`: the controller fails once, "
-      "from `at_s` on: during the present motion, or else as soon as the next motion moves.",
+      "from `at_s` on: during the present motion, or else as soon as the next motion moves. "
+      "`drift`: the arm's first joint leaves its path, or the position where it rests, until the "
+      "arm is braked or the fault ends; the deviation remains.",
       make_fault_format(Need::optional));
   return format;
 }

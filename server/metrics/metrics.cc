@@ -4,6 +4,7 @@
 #include <prometheus/text_serializer.h>
 
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -28,6 +29,7 @@ double seconds(std::chrono::nanoseconds time) {
 }
 
 const Buckets kPeriods{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0};
+const Buckets kReactions{0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02};
 const Buckets kLatencies{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0};
 
 // Returns the label of one side of a pair. All objects share the label "scene", because clients may
@@ -51,6 +53,9 @@ class Metrics::Impl {
                                   Wait::Kind::plan, Wait::Kind::guard, Wait::Kind::speed}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
+    for (const MonitorFinding::Kind kind : kValues<MonitorFinding::Kind>) {
+      findings_.Add({{"kind", to_string(kind)}});
+    }
     for (const char* what : {"requests", "jobs", "connections"}) limited_.Add({{"what", what}});
     for (const char* state : {"queued", "backlogged", "scheduled", "running"}) at(state);
   }
@@ -61,6 +66,21 @@ class Metrics::Impl {
   void set_speed(double speed) { scale_ = std::max(1.0, 1.0 / speed); }
 
   void ticked() { control_.happened(scale_); }
+
+  void watch_begins() {
+    const auto now = Clock::now();
+    if (watch_began_) {
+      const double periods = seconds(now - *watch_began_) * cell_->monitor.rate_hz / scale_;
+      // Up to a period and a half is jitter.
+      if (periods >= 1.5) missed_.Increment(std::round(periods) - 1.0);
+    }
+    watch_began_ = now;
+  }
+
+  void monitor_stopped(std::size_t arms) {
+    arms_stopped_.Increment(static_cast<double>(arms));
+    if (watch_began_) reactions_.Observe(seconds(Clock::now() - *watch_began_));
+  }
 
   void watched(const StateFrame& frame) {
     monitor_.happened(scale_);
@@ -77,7 +97,9 @@ class Metrics::Impl {
 
   void happened(const Event& event) {
     if (const auto* job = std::get_if<JobView>(&event.body)) follow(*job);
-    if (std::holds_alternative<MonitorEvent>(event.body)) monitor_stops_.Increment();
+    if (const auto* found = std::get_if<MonitorEvent>(&event.body)) {
+      findings_.Add({{"kind", to_string(found->finding.kind)}}).Increment();
+    }
     if (std::holds_alternative<GuardEvent>(event.body)) guard_refusals_.Increment();
     if (const auto* queue = std::get_if<QueueView>(&event.body)) {
       const auto size = [](const std::vector<std::string>& keys) {
@@ -199,8 +221,20 @@ class Metrics::Impl {
   Family<Gauge>& clearance_min_ =
       gauges("armloom_clearance_min_metres", "Smallest clearance of a pair since the start");
   std::map<std::pair<std::string, std::string>, Nearest> nearest_;
-  Counter& monitor_stops_ =
-      counters("armloom_monitor_findings_total", "Findings of the monitor").Add({});
+  Family<Counter>& findings_ =
+      counters("armloom_monitor_findings_total", "Findings of the monitor, by kind");
+  Counter& arms_stopped_ =
+      counters("armloom_monitor_stopped_arms_total", "Arms that the monitor stopped").Add({});
+  Counter& missed_ =
+      counters("armloom_monitor_missed_periods_total",
+               "Monitor periods that began late by a period or more")
+          .Add({});
+  Histogram& reactions_ =
+      histograms("armloom_monitor_reaction_seconds",
+                 "Time from the beginning of a monitor period to the stop commands of its findings")
+          .Add({}, kReactions);
+  using Clock = std::chrono::steady_clock;
+  std::optional<Clock::time_point> watch_began_;  // the strand's
   Counter& guard_refusals_ =
       counters("armloom_guard_refusals_total",
                "Invalid grants of authority by the scheduler, refused by the guard")
@@ -245,6 +279,8 @@ Metrics::Metrics(CellPtr cell, double speed)
 Metrics::~Metrics() = default;
 void Metrics::ticked() { impl_->ticked(); }
 void Metrics::watched(const StateFrame& frame) { impl_->watched(frame); }
+void Metrics::watch_begins() { impl_->watch_begins(); }
+void Metrics::monitor_stopped(std::size_t arms) { impl_->monitor_stopped(arms); }
 void Metrics::judged(std::uint64_t evaluations) { impl_->judged(evaluations); }
 void Metrics::set_speed(double speed) { impl_->set_speed(speed); }
 void Metrics::stop_taken(std::chrono::nanoseconds after) { impl_->stop_taken(after); }

@@ -23,6 +23,9 @@ class Metrics {
   // period.
   void ticked();
   void watched(const StateFrame& frame);
+  // Call on the strand when a monitor period begins, and when the monitor has stopped arms in it.
+  void watch_begins();
+  void monitor_stopped(std::size_t arms);
   void judged(std::uint64_t evaluations);  // collision evaluations for one question
   // Thread-safe.
   void set_speed(double speed);

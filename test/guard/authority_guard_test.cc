@@ -227,6 +227,24 @@ TEST_F(Guarded, StartOffThePathNeedsACertificateWithThatError) {
   EXPECT_EQ(why(right, 1s), Why::uncertified) << "left is still off its path";
 }
 
+TEST_F(Guarded, ArmThatLeavesItsPathIsNotCoveredUntilItRests) {
+  take({scene(left), scene(right), pair(on(left), on(right))});
+  ASSERT_EQ(guard->grant(left, Duration{}, 4s), std::nullopt);
+  ASSERT_EQ(guard->grant(right, Duration{}, 4s), std::nullopt);
+  EXPECT_TRUE(guard->certifies(kLeft, kRight));
+  EXPECT_TRUE(guard->certifies_scene(kRight));
+  guard->moves(kRight, 1s);
+  guard->leaves_path(kRight, 2 * kError);
+  EXPECT_FALSE(guard->certifies(kLeft, kRight));
+  EXPECT_FALSE(guard->certifies(kRight, kLeft));
+  EXPECT_FALSE(guard->certifies_scene(kRight));
+  EXPECT_TRUE(guard->certifies_scene(kLeft));
+  EXPECT_EQ(guard->refuses(left, std::nullopt, 5s)->why, Why::uncertified);
+  rest(kRight, 1s, 0.1);  // back on its path
+  EXPECT_TRUE(guard->certifies(kLeft, kRight));
+  EXPECT_EQ(guard->refuses(left, std::nullopt, 5s), std::nullopt);
+}
+
 TEST_F(Guarded, CertificateIsValidFromItsProgressOn) {
   take({scene(left, 2s), pair(on(left, 2s), resting(kRight, 0.0))});
   EXPECT_EQ(why(left, 5s), Why::uncertified);

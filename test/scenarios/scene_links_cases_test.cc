@@ -101,13 +101,12 @@ TEST(SceneLinks, StopTheArmLikeAnEqualObject) {
     const WalledRun link(as, 0.005, "timed_discrete");
     const WalledRun object(As::object, 0.005, "timed_discrete");
     expect_same(link, object);
-    // more findings follow as the arm comes closer while braking
     ASSERT_FALSE(link.seen.found.empty());
     EXPECT_EQ(link.seen.found[0].finding.proximity.body_b, "wall");
     EXPECT_EQ(link.seen.found[0].finding.limit_m, 0.01);
     EXPECT_EQ(link.seen.found[0].stopped, std::vector<std::string>{"a"});
     EXPECT_EQ(link.figures.monitor_stops, link.seen.found.size());
-    EXPECT_LT(link.figures.min_clearance_m, 0.01);
+    EXPECT_GE(link.figures.min_clearance_m, 0.01) << "stopped in time";
   }
 }
 

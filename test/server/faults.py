@@ -12,7 +12,8 @@ STORE, TABLES, MARK = 'server/store/job_store.cc', 'server/store/job_tables.cc',
 RESTART, ACCEPTED = 'server/durable/restart.cc', 'server/durable/accepted_requests.cc'
 HEAD, FRAMING, ROUTER = 'server/http/request_head.cc', 'server/http/framing.cc', 'server/http/router.cc'
 LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc'
-MONITOR, HUB, FAULTY = 'core/monitor/monitor.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
+PREMISES, AHEAD, STOPS = 'core/monitor/premises.cc', 'core/monitor/look_ahead.cc', 'core/monitor/stop_set.cc'
+MONITOR, HUB, FAULTY = 'core/monitor/present.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
 PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/arm/rate_law.cc'
 
 # Faults by the test program that runs first. If it does not find a fault, the other programs run.
@@ -76,6 +77,26 @@ FAULTS = {'server_store_test': [
     ('arms at rest are stopped', MONITOR, 'if (!arm || !moving.at(arm->index())) continue;', 'if (!arm || (!FAULT && !moving.at(arm->index()))) continue;'),
     ('a contact is reported as a lost clearance', MONITOR, '.kind = proximity.clearance_m <= 0.0 ?', '.kind = proximity.clearance_m <= (FAULT ? -1e9 : 0.0) ?'),
     ('a pair that parted stays known', MONITOR, '  known_ = std::move(still_known);', '  if (FAULT) known_.merge(still_known);\n  else known_ = std::move(still_known);'),
+    ('a deviation is not noticed', PREMISES, 'const bool deviates = far.distance > far_limit;', 'const bool deviates = !FAULT && far.distance > far_limit;'),
+    ('a lagging arm deviates', PREMISES, 'std::max(now.commanded, now.measured), seen.measured, limit);', 'FAULT ? now.measured : std::max(now.commanded, now.measured), seen.measured, limit);'),
+    ('each joint is compared at its own progress', PREMISES, '      if (away > far.distance) far = {away, joint, progress};\n    }\n    return far;', '      if (away > far.distance && !(FAULT && row > 0)) far = {away, joint, progress};\n    }\n    return far;'),
+    ('the limit of the robot is ignored', PREMISES, '  return cell.robots[cell.arm(arm).robot.index()].controller', '  if (FAULT) return cell.checking.tracking_error_rad;\n  return cell.robots[cell.arm(arm).robot.index()].controller'),
+    ('joints outside the motion are not checked', PREMISES, 'if (moves(*now.motion, joint)) continue;', 'if (FAULT || moves(*now.motion, joint)) continue;'),
+    ('an arm without a motion may move', PREMISES, '  const bool moved = far.distance > limit;', '  const bool moved = !FAULT && far.distance > limit;'),
+    ('authority may be passed', PREMISES, 'const bool passed = now.measured > now.authority;', 'const bool passed = !FAULT && now.measured > now.authority;'),
+    ('feedback may be late', PREMISES, 'judge(arm, now.feedback_age > timeout,', 'judge(arm, !FAULT && now.feedback_age > timeout,'),
+    ('frozen positions are not noticed', PREMISES, 'if (seen.time - state.changed_at > timeout &&', 'if (!FAULT && seen.time - state.changed_at > timeout &&'),
+    ('positions may jump', PREMISES, 'judge(arm, far.joint.has_value(),', 'judge(arm, !FAULT && far.joint.has_value(),'),
+    ('a motion may finish anywhere', PREMISES, '  if (far.distance <= limit) return std::nullopt;\n  return MonitorFinding', '  if (FAULT || far.distance <= limit) return std::nullopt;\n  return MonitorFinding'),
+    ('a violation is reported once for ever', PREMISES, '(known.has_rested && !rests);', '(!FAULT && known.has_rested && !rests);'),
+    ('the look-ahead comes a period late', AHEAD, 'std::min(end, brakes_to + period_);', 'std::min(end, FAULT ? brakes_to - period_ : brakes_to + period_);'),
+    ('the look-ahead forgets the braking distance', AHEAD, 'commanded + controller.reaction + known.reach)', 'commanded + controller.reaction + (FAULT ? Duration{} : known.reach))'),
+    ('certificates are ignored', AHEAD, 'if (!certified.certifies(arm, other)) compare(', 'if (FAULT || !certified.certifies(arm, other)) compare('),
+    ('one stop always suffices', AHEAD, 'made.conflict.a_suffices = !geometry', 'made.conflict.a_suffices = FAULT || !geometry'),
+    ('the scene is not in the way', AHEAD, 'certified.certifies_scene(arm)) continue;', 'FAULT || certified.certifies_scene(arm)) continue;'),
+    ('an arm off its path does not go on', AHEAD, 'const double speed = std::abs(off.velocity[j]);', 'const double speed = FAULT ? 0.0 : std::abs(off.velocity[j]);'),
+    ('more arms are stopped than needed', STOPS, 'if (more > 0 || (more == 0 && !is_first)) continue;', 'if (FAULT || more > 0 || (more == 0 && !is_first)) continue;'),
+    ('a conflict is left unresolved', STOPS, '    if (resolves_all) best = stops;', '    if (resolves_all || FAULT) best = stops;'),
 ], 'arm_test': [
     ('an arm does not brake for the end of its authority', PROGRESS, 'if (!above(fastest.rate, fastest.progress_s)) return fastest;', 'if (FAULT || !above(fastest.rate, fastest.progress_s)) return fastest;'),
     ('authority may be taken back under a moving arm', PROGRESS, 'authority_ = std::max(authority, stop_from_here());', 'authority_ = FAULT ? authority : std::max(authority, stop_from_here());'),

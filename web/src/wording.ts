@@ -256,10 +256,11 @@ export function result_in_words(job: Job): string {
 }
 
 export function monitor_in_words(event: MonitorData): string {
-  const [a, b] = event.links;
   const stopped = event.stopped.length ? kText.server.stopped(event.stopped.join(kText.server.and)) : '';
+  const [a, b] = event.links ?? [];
   if (event.kind === 'contact') return kText.server.touches(String(a), String(b), stopped);
-  return kText.server.apart(String(a), String(b), millimeters(event.clearance_m), millimeters(event.limit_m), stopped);
+  if (event.kind !== 'clearance') return `${event.text}${stopped}`;
+  return kText.server.apart(String(a), String(b), millimeters(event.clearance_m ?? 0), millimeters(event.limit_m ?? 0), stopped);
 }
 
 /** Returns a sentence for each choice the server made about the job's path. */

@@ -25,7 +25,7 @@ describe('Message', () => {
       envelope('job', 1, job_json('a', { state: 'backlogged', waits_on: [wait_json()] })),
       envelope('arm', 2, arm_json('left', { state: 'fault' })),
       envelope('queue', 3, { stopped: true, ...ids }),
-      envelope('monitor', 4, { kind: 'contact', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }),
+      envelope('monitor', 4, { kind: 'contact', text: 'a and b touch', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }),
       envelope('alert', 5, { level: 'warning', text: 'x' }),
       envelope('scene', 6, { version: 2, objects: [{ name: 'rod', cylinder: [0.015, 0.5], xyz: [0, 0, 1], rpy: [0, 0, 0] }, { name: 'ball', sphere: [0.1], xyz: [0, 0, 0], rpy: [0, 0, 0] }] }),
       frame(7, { left_panda_joint1: 0.5 }),

@@ -185,8 +185,8 @@ describe('Store', () => {
   });
 
   it('ranks monitor events that stopped an arm above warnings', () => {
-    take(envelope('monitor', 2, { kind: 'contact', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }));
-    take(envelope('monitor', 3, { kind: 'clearance', arms: ['left'], links: ['a', 'b'], clearance_m: 0.02, limit_m: 0.03, stopped: [] }));
+    take(envelope('monitor', 2, { kind: 'contact', text: 'a and b touch', arms: ['left'], links: ['a', 'b'], clearance_m: 0, limit_m: 0.01, stopped: ['left'] }));
+    take(envelope('monitor', 3, { kind: 'clearance', text: 'a and b are close', arms: ['left'], links: ['a', 'b'], clearance_m: 0.02, limit_m: 0.03, stopped: [] }));
     expect(store.notices.map((notice) => notice.level)).toEqual(['warning', 'error']);
   });
 

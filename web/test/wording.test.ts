@@ -107,8 +107,12 @@ describe('Buttons', () => {
 
 describe('Monitor event', () => {
   it('names links, distance and stopped arms', () => {
-    const event: MonitorData = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
+    const event: MonitorData = { kind: 'clearance', text: 'a and b are close', arms: ['left', 'right'], links: ['a', 'b'], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
     expect(monitor_in_words(event)).toBe('a and b 9.1 mm apart (limit 10 mm); stopped left and right');
+  });
+  it('gives the sentence of the server for a violated premise', () => {
+    const event: MonitorData = { kind: 'deviation', text: 'left left its path: j1 by 0.0020 rad, limit 0.0010 rad', arms: ['left'], joint: 'j1', value: 0.002, limit: 0.001, stopped: ['left'] };
+    expect(monitor_in_words(event)).toBe('left left its path: j1 by 0.0020 rad, limit 0.0010 rad; stopped left');
   });
 });
 

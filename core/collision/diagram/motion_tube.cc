@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/collision/filter/kernels.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -55,7 +56,6 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
     : TimeTree(trajectory ? trajectory->duration() : Duration{}),
       geometry_(std::move(geometry)),
       trajectory_(std::move(trajectory)),
-      tracking_error_(tracking_error),
       scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
   const ArmKinematics& arm = geometry_->kinematics;
   rest_.reserve(arm.joints().size());
@@ -67,6 +67,27 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
     const auto& moved = trajectory_->joints();
     const auto found = std::find(moved.begin(), moved.end(), joint);
     if (found != moved.end()) column_.back() = static_cast<int>(found - moved.begin());
+  }
+  shift_.assign(rest_.size(), 0.0);
+  error_.assign(rest_.size(), tracking_error);
+}
+
+MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach& reach,
+                       std::shared_ptr<Scratch> scratch)
+    : MotionTube(std::move(geometry), reach.moves() ? reach.motion : nullptr, reach.rest, 0.0,
+                 std::move(scratch)) {
+  TimeTree::operator=(TimeTree(reach.moves() ? reach.to - reach.from : Duration{}));
+  begin_ = reach.from;
+  Configuration at = reach.rest;
+  if (reach.motion && !reach.moves()) {
+    reach.motion->sample_positions(reach.from, scratch_->position);
+    set_joints(at, *reach.motion, scratch_->position);
+  }
+  for (std::size_t row = 0; row < rest_.size(); ++row) {
+    const auto joint = static_cast<Eigen::Index>(kinematics().joints()[row].index());
+    rest_[row] = at[joint] + reach.shift[joint];
+    shift_[row] = reach.shift[joint];
+    error_[row] = reach.error[joint];
   }
 }
 
@@ -85,9 +106,9 @@ std::size_t MotionTube::bytes() const {
 }
 
 void MotionTube::configuration(Duration time, double* q) {
-  if (trajectory_) trajectory_->sample_positions(time, scratch_->position);
+  if (trajectory_) trajectory_->sample_positions(begin_ + time, scratch_->position);
   for (std::size_t row = 0; row < rest_.size(); ++row) {
-    q[row] = column_[row] < 0 ? rest_[row] : scratch_->position[column_[row]];
+    q[row] = column_[row] < 0 ? rest_[row] : scratch_->position[column_[row]] + shift_[row];
   }
 }
 
@@ -112,18 +133,18 @@ void MotionTube::place(std::span<const int> nodes) {
 // joints' deviation from this configuration, and from a line through it in joint space.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
-  if (trajectory_) trajectory_->enclose_about_line(from(node), to(node), s.line);
+  if (trajectory_) trajectory_->enclose_about_line(begin_ + from(node), begin_ + to(node), s.line);
   // Nodes are cut at whole nanoseconds, so neither half of a node is longer than half_s.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
     const int column = column_[row];
-    double loose = tracking_error_;
+    double loose = error_[row];
     double drift = 0.0;
     if (column < 0) {
       s.q[place] = rest_[row];
     } else {
-      s.q[place] = s.line.position[column];
+      s.q[place] = s.line.position[column] + shift_[row];
       drift = s.line.velocity[column] * half_s;
       // Covers the rounding of a drift to float.
       loose += s.line.off[column] + kRounding + 1e-6 * std::abs(drift);

@@ -8,6 +8,7 @@
 #include "core/collision/diagram/sweep.h"
 #include "core/collision/diagram/time_tree.h"
 #include "core/collision/filter/pair_set.h"
+#include "core/coordination/reach.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -35,6 +36,9 @@ class MotionTube : public TimeTree {
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
              const Configuration& rest, double tracking_error,
              std::shared_ptr<Scratch> scratch = nullptr);
+  // The stretch of a motion that an arm may reach. Times count from the start of the stretch.
+  MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach& reach,
+             std::shared_ptr<Scratch> scratch);
 
   [[nodiscard]] const ArmKinematics& kinematics() const { return geometry_->kinematics; }
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
@@ -110,7 +114,9 @@ class MotionTube : public TimeTree {
   TrajectoryPtr trajectory_;
   std::vector<int> column_;   // by row: index in the trajectory's joints, or -1
   std::vector<double> rest_;  // by row
-  double tracking_error_;
+  Duration begin_{};           // trajectory time at which the tube begins
+  std::vector<double> shift_;  // by row, of joints on the motion
+  std::vector<double> error_;  // by row: largest deviation of the joint
   std::vector<Placement> placements_;
   std::vector<std::unique_ptr<Block>> blocks_;
   std::vector<SelfHit> self_hits_;

@@ -901,18 +901,28 @@ export interface components {
             version: number;
             objects: components["schemas"]["Object"][];
         };
+        /** @description `contact`, `clearance`: two bodies are too close. `approach`: two bodies will be too close unless an arm stops now. The other kinds report a violated premise of the certificates: an arm that is not where it should be, or feedback that is late, frozen or implausible. */
         MonitorFinding: {
             /** @enum {string} */
-            kind: "contact" | "clearance";
+            kind: "contact" | "clearance" | "approach" | "deviation" | "unplanned_motion" | "early_finish" | "beyond_authority" | "late_feedback" | "frozen_feedback" | "implausible_feedback";
+            /** @description One sentence */
+            text: string;
+            /** @description Arms of the pair, or the arm that violates a premise */
             arms: string[];
-            links: [
+            links?: [
                 string,
                 string
             ];
             /** @description Clearance found */
-            clearance_m: number;
+            clearance_m?: number;
             /** @description Clearance required */
-            limit_m: number;
+            limit_m?: number;
+            /** @description Joint that exceeds the limit most */
+            joint?: string;
+            /** @description Measured value: rad or m with `joint`, else s */
+            value?: number;
+            /** @description Largest permitted value */
+            limit?: number;
             /** @description Arms that the monitor stopped */
             stopped: string[];
         };

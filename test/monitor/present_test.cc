@@ -1,4 +1,4 @@
-#include "core/monitor/monitor.h"
+#include "core/monitor/present.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,15 +36,14 @@ Proximity hand_and_table(double clearance_m) {
           .clearance_m = clearance_m,
           .limit_m = 0.01};
 }
-Monitor monitor() { return {}; }
 
-TEST(Monitor, FindsNothingWhileAllPairsKeepTheClearance) {
-  Monitor m = monitor();
+TEST(PresentCheck, FindsNothingWhileAllPairsKeepTheClearance) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({}, kBothMove, at(10ms)), IsEmpty());
 }
 
-TEST(Monitor, ReportsPairDistanceAndTimeAndStopsBothMovingArms) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsPairDistanceAndTimeAndStopsBothMovingArms) {
+  PresentCheck m;
   const auto found = m.observe({hands(0.006)}, kBothMove, at(30ms));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found[0].kind, Kind::clearance);
@@ -55,15 +54,15 @@ TEST(Monitor, ReportsPairDistanceAndTimeAndStopsBothMovingArms) {
   EXPECT_THAT(found[0].stops, ElementsAre(kLeft, kRight));
 }
 
-TEST(Monitor, ReportsContactAtZeroDistance) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsContactAtZeroDistance) {
+  PresentCheck m;
   EXPECT_EQ(m.observe({hands(1e-9)}, kBothMove, at(0ms)).at(0).kind, Kind::clearance);
-  EXPECT_EQ(monitor().observe({hands(0.0)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
-  EXPECT_EQ(monitor().observe({hands(-0.003)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
+  EXPECT_EQ(PresentCheck().observe({hands(0.0)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
+  EXPECT_EQ(PresentCheck().observe({hands(-0.003)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
 }
 
-TEST(Monitor, StopsOnlyTheMovingArmOfAPair) {
-  Monitor m = monitor();
+TEST(PresentCheck, StopsOnlyTheMovingArmOfAPair) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.006)}, kLeftMoves, at(0ms)).at(0).stops, ElementsAre(kLeft));
   // The right hand is too close to the table. The table cannot be stopped, and the left arm is not
   // involved.
@@ -71,33 +70,33 @@ TEST(Monitor, StopsOnlyTheMovingArmOfAPair) {
               ElementsAre(kRight));
 }
 
-TEST(Monitor, ListsAnArmTooCloseToItselfOnce) {
+TEST(PresentCheck, ListsAnArmTooCloseToItselfOnce) {
   Proximity self = hands(0.001);
   self.arm_b = kLeft;
   self.limit_m = 0.0025;
-  const auto found = monitor().observe({self}, kBothMove, at(0ms));
+  const auto found = PresentCheck().observe({self}, kBothMove, at(0ms));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].stops, ElementsAre(kLeft));
   EXPECT_EQ(found[0].limit_m, 0.0025);
 }
 
-TEST(Monitor, ReportsArmsAtRestWithoutStoppingThem) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsArmsAtRestWithoutStoppingThem) {
+  PresentCheck m;
   const auto found = m.observe({hands(0.006)}, kNoneMoves, at(0ms));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].stops, IsEmpty());
 }
 
-TEST(Monitor, ReportsAPairOnlyOnce) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsAPairOnlyOnce) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(10ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.009)}, kBothMove, at(20ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.0056)}, kBothMove, at(30ms)), IsEmpty());
 }
 
-TEST(Monitor, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   int again = 0;
   for (int i = 1; i <= 10; ++i) {
@@ -106,30 +105,30 @@ TEST(Monitor, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
   EXPECT_EQ(again, 1);  // when it has come 0.6 mm closer
 }
 
-TEST(Monitor, DoesNotRepeatAPairWhileBothArmsRest) {
-  Monitor m = monitor();
+TEST(PresentCheck, DoesNotRepeatAPairWhileBothArmsRest) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   EXPECT_THAT(m.observe({hands(0.002)}, kNoneMoves, at(10ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.002)}, kLeftMoves, at(20ms)), SizeIs(1));
 }
 
-TEST(Monitor, AllowsSeparatingArmsAfterAStop) {
-  Monitor m = monitor();
+TEST(PresentCheck, AllowsSeparatingArmsAfterAStop) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.003)}, kBothMove, at(0ms)), SizeIs(1));
   for (int i = 1; i < 70; ++i) {
     EXPECT_THAT(m.observe({hands(0.003 + 0.0001 * i)}, kLeftMoves, at(0ms)), IsEmpty());
   }
 }
 
-TEST(Monitor, ReportsAPairAgainAfterItHasCleared) {
-  Monitor m = monitor();
+TEST(PresentCheck, ReportsAPairAgainAfterItHasCleared) {
+  PresentCheck m;
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(0ms)), SizeIs(2));
   EXPECT_THAT(m.observe({hand_and_table(0.002)}, kBothMove, at(10ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(20ms)), SizeIs(1));
 }
 
-TEST(Monitor, RecognizesAPairInEitherOrder) {
-  Monitor m = monitor();
+TEST(PresentCheck, RecognizesAPairInEitherOrder) {
+  PresentCheck m;
   Proximity turned = hands(0.006);
   turned = turned_around(std::move(turned));
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));

@@ -5,33 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/time.h"
-#include "core/coordination/proximity.h"
+#include "core/monitor/finding.h"
 
 namespace armloom {
 
-// A pair of links that is too close, and the arms to be stopped for it.
-struct MonitorFinding {
-  enum class Kind { contact, clearance };
-  Kind kind;
-  TimePoint time;
-  Proximity proximity;       // which links, how close
-  double limit_m;            // the required distance: Proximity::limit_m of this pair
-  std::vector<ArmId> stops;  // the arms of the pair that are moving
-};
-[[nodiscard]] constexpr const char* to_string(MonitorFinding::Kind kind) {
-  switch (kind) {
-    case MonitorFinding::Kind::contact:
-      return "contact";
-    case MonitorFinding::Kind::clearance:
-      return "clearance";
-  }
-  return nullptr;
-}
-
 // Checks the measured state of all arms together, against each other and the scene. Pure: the
 // caller finds the pairs that are too close.
-class Monitor {
+class PresentCheck {
  public:
   // Returns the new findings. `too_close`: every pair whose distance is below its limit_m in the
   // measured state at `now`; `moving`: by ArmId. A pair is reported when it falls below its limit.

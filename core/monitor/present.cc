@@ -1,4 +1,4 @@
-#include "core/monitor/monitor.h"
+#include "core/monitor/present.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,8 +30,8 @@ std::vector<ArmId> moving_arms(const Proximity& proximity, const std::vector<boo
 
 }  // namespace
 
-std::vector<MonitorFinding> Monitor::observe(const std::vector<Proximity>& too_close,
-                                             const std::vector<bool>& moving, TimePoint now) {
+std::vector<MonitorFinding> PresentCheck::observe(const std::vector<Proximity>& too_close,
+                                                  const std::vector<bool>& moving, TimePoint now) {
   std::vector<MonitorFinding> findings;
   std::map<Pair, double> still_known;  // what is no longer too close is forgotten
   for (const Proximity& proximity : too_close) {

@@ -1,0 +1,37 @@
+#include "core/executive/observe.h"
+
+#include <utility>
+
+namespace armloom {
+
+Observation observed(const Motions& motions, const AuthorityGate& gate, std::size_t arms,
+                     TimePoint now) {
+  using Phase = ArmFeedback::Phase;
+  Observation seen{.time = now, .measured = motions.measured(), .arms = {}};
+  for (std::uint32_t a = 0; a < arms; ++a) {
+    const ArmId arm{a};
+    const ArmFeedback& feedback = motions.feedback(arm);
+    const ArmLink& link = motions.link(arm);
+    const ArmPosition& position = gate.guard().position(arm);
+    const bool waits = feedback.phase == Phase::waiting;
+    const bool brakes = feedback.phase == Phase::braking;
+    const bool rests = !waits && !brakes && feedback.phase != Phase::moving;
+    TrajectoryPtr motion = motions.trajectory(arm);
+    // A finished arm's motion is released at once; a rejected one was never followed.
+    if (feedback.phase == Phase::idle || feedback.phase == Phase::fault) motion = nullptr;
+    seen.arms.push_back({
+        .motion = std::move(motion),
+        .measured = feedback.measured_progress,
+        .commanded = feedback.commanded_progress,
+        .authority = position.at_rest ? feedback.measured_progress : position.authority,
+        .rests = rests,
+        .brakes = brakes,
+        .rests_at = feedback.rests_at,
+        .off_path = position.off_path,
+        .feedback_age = link.state() == ArmLink::State::connecting ? Duration{} : link.age(),
+    });
+  }
+  return seen;
+}
+
+}  // namespace armloom

@@ -1,0 +1,194 @@
+#include "core/monitor/look_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trajectory/stopping_reach.h"
+
+namespace armloom {
+namespace {
+
+// An arm that goes on keeps its measured rate to within this.
+constexpr double kRateChange = 0.2;
+
+}  // namespace
+
+LookAhead::LookAhead(CellPtr cell, Duration period)
+    : cell_(std::move(cell)),
+      period_(period),
+      off_path_(cell_->arms.size()),
+      stopping_reach_(cell_->arms.size()),
+      paces_(cell_->arms.size()) {}
+
+// ---- Where arms can get ----
+
+// Returns the measured rate of progress: trajectory time per time, one as planned.
+std::optional<double> LookAhead::rate_of(ArmId arm, const Observation& seen) {
+  const ArmObservation& now = seen.arms[arm.index()];
+  Pace& pace = paces_[arm.index()];
+  if (pace.motion != now.motion) {
+    pace = {now.motion, now.measured, seen.time};
+  } else if (seen.time > pace.time) {
+    const double rate =
+        to_seconds(now.measured - pace.measured) / to_seconds(seen.time - pace.time);
+    pace = {now.motion, now.measured, seen.time, std::clamp(rate, 0.0, 1.0)};
+  }
+  return pace.rate;
+}
+
+LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
+                                        const PremiseCheck& premises, bool is_stopping) {
+  const ArmObservation& now = seen.arms[arm.index()];
+  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
+  const Configuration zero = Configuration::Zero(seen.measured.size());
+  Reach reach{.arm = arm, .rest = seen.measured, .shift = zero, .error = zero};
+  ArmReach result{.braking = reach, .going = reach, .is_still = false};
+
+  Duration brakes_to{}, goes_to{};
+  if (now.motion) {
+    StoppingReach& known = stopping_reach_[arm.index()];
+    if (known.motion != now.motion) {
+      known = {now.motion, from_seconds(stopping_reach_s(*cell_, *now.motion))};
+    }
+    reach.motion = now.motion;
+    reach.from = std::min(now.measured, now.motion->duration());
+    const Duration end = std::max(reach.from, std::min(now.authority, now.motion->duration()));
+    // Progress at the planned rate, the highest, until the brake takes effect.
+    const Duration commanded = std::max(now.commanded, now.measured);
+    brakes_to =
+        now.rests ? reach.from : std::min(end, commanded + controller.reaction + known.reach);
+    if (now.brakes && now.rests_at) {
+      brakes_to = std::clamp(*now.rests_at, reach.from, now.motion->duration());
+    }
+    goes_to = now.rests ? reach.from : std::min(end, brakes_to + period_);
+    if (now.feedback_age > controller.feedback_timeout) brakes_to = goes_to = end;
+    if (now.brakes || is_stopping) goes_to = brakes_to;
+  }
+  result.is_still = !now.motion || now.rests;
+
+  // An arm that is not where its certificates assume: each joint goes on at its measured speed away
+  // from the path until the brake has stopped it.
+  if (premises.is_as_certified(arm)) {
+    off_path_[arm.index()].reset();
+  } else {
+    OffPath off{zero, premises.velocity(), seen.time};
+    if (now.motion) {
+      const PathDistance near = premises.nearest(arm, seen);
+      reach.from = std::min(near.progress, brakes_to);
+      Eigen::VectorXd path;
+      now.motion->sample_positions(near.progress, path);
+      off.velocity.setZero();
+      const auto& before = off_path_[arm.index()];
+      for (std::size_t row = 0; row < now.motion->joints().size(); ++row) {
+        const JointId joint = now.motion->joints()[row];
+        if (cell_->joint(joint).arm != arm) continue;
+        const auto j = static_cast<Eigen::Index>(joint.index());
+        off.shift[j] = seen.measured[j] - path[static_cast<Eigen::Index>(row)];
+        const double since_s = to_seconds(before ? seen.time - before->time : period_);
+        const double then = before ? before->shift[j] : 0.0;
+        off.velocity[j] = since_s > 0.0 ? (off.shift[j] - then) / since_s : before->velocity[j];
+      }
+    }
+    for (const JointId joint : premises.joints(arm)) {
+      const auto j = static_cast<Eigen::Index>(joint.index());
+      const double speed = std::abs(off.velocity[j]);
+      const double more = speed * to_seconds(controller.reaction) +
+                          speed * speed / (2.0 * cell_->joint(joint).brake);
+      reach.shift[j] = off.shift[j] + std::copysign(0.5 * more, off.velocity[j]);
+      reach.error[j] = 0.5 * more;
+      if (more > 0.0) result.is_still = false;
+    }
+    off_path_[arm.index()] = std::move(off);
+  }
+  const std::optional<double> rate = rate_of(arm, seen);
+  reach.slack = period_;
+  result.braking = reach;
+  result.braking.to = std::max(reach.from, brakes_to);
+  result.going = std::move(reach);
+  result.going.to = std::max(result.going.from, goes_to);
+  // An arm that stands on its path may set out at any time.
+  if (rate && *rate >= kRateChange) {
+    result.going.rate_low = *rate - kRateChange;
+    result.going.rate_high = std::min(1.0, *rate + kRateChange);
+  }
+  result.may_go_on = result.going.to > result.braking.to;
+  if (!result.may_go_on) result.going = result.braking;
+  return result;
+}
+
+// ---- Conflicts ----
+
+void LookAhead::compare(ArmId a, ArmId b, const std::vector<ArmReach>& reaches,
+                        ReachGeometry& geometry, std::vector<Predicted>& predicted) const {
+  const ArmReach& of_a = reaches[a.index()];
+  const ArmReach& of_b = reaches[b.index()];
+  const auto evidence = geometry.may_meet(of_a.going, of_b.going);
+  if (!evidence) return;
+  Predicted made{.conflict = {.a = a}, .evidence = *evidence, .other = b};
+  if (of_a.may_go_on && of_b.may_go_on) {
+    made.conflict.b = b;
+    made.conflict.a_suffices = !geometry.may_meet(of_a.braking, of_b.going);
+    made.conflict.b_suffices = !geometry.may_meet(of_a.going, of_b.braking);
+    made.can_be_resolved = true;
+  } else if (of_a.may_go_on || of_b.may_go_on) {
+    made.conflict.a = of_a.may_go_on ? a : b;
+    made.can_be_resolved = true;
+  }
+  predicted.push_back(std::move(made));
+}
+
+std::vector<MonitorFinding> LookAhead::check(const Observation& seen, const PremiseCheck& premises,
+                                             const std::vector<bool>& stopping,
+                                             const CertifiedPairs& certified,
+                                             ReachGeometry& geometry) {
+  const std::size_t count = seen.arms.size();
+  std::vector<ArmReach> reaches;
+  for (std::uint32_t a = 0; a < count; ++a) {
+    reaches.push_back(reach_of(ArmId{a}, seen, premises, stopping[a]));
+  }
+  std::vector<Predicted> predicted;
+  for (std::uint32_t a = 0; a < count; ++a) {
+    const ArmId arm{a};
+    for (std::uint32_t b = a + 1; b < count; ++b) {
+      const ArmId other{b};
+      if (reaches[a].is_still && reaches[b].is_still) continue;
+      if (!certified.certifies(arm, other)) compare(arm, other, reaches, geometry, predicted);
+    }
+    if (reaches[a].is_still || certified.certifies_scene(arm)) continue;
+    if (auto evidence = geometry.may_meet_scene(reaches[a].going)) {
+      predicted.push_back({.conflict = {.a = arm},
+                           .evidence = std::move(*evidence),
+                           .other = {},
+                           .can_be_resolved = reaches[a].may_go_on});
+    }
+  }
+
+  std::vector<StopConflict> conflicts;
+  for (const Predicted& one : predicted) {
+    if (one.can_be_resolved) conflicts.push_back(one.conflict);
+  }
+  const std::vector<ArmId> stops = smallest_stop_set(conflicts);
+
+  std::vector<MonitorFinding> found;
+  std::set<Conflicting> known;
+  for (Predicted& one : predicted) {
+    const Conflicting pair{
+        std::min(one.conflict.a, one.other.value_or(one.conflict.a)),
+        one.other ? std::optional(std::max(one.conflict.a, *one.other)) : std::nullopt};
+    const bool is_new = !known_.contains(pair);
+    known.insert(pair);
+    MonitorFinding finding{.kind = MonitorFinding::Kind::approach,
+                           .time = seen.time,
+                           .proximity = std::move(one.evidence)};
+    finding.limit_m = finding.proximity.limit_m;
+    for (const ArmId arm : stops) {
+      const bool concerns = one.can_be_resolved && (arm == one.conflict.a || arm == one.conflict.b);
+      if (concerns) finding.stops.push_back(arm);
+    }
+    if (is_new || !finding.stops.empty()) found.push_back(std::move(finding));
+  }
+  known_ = std::move(known);
+  return found;
+}
+
+}  // namespace armloom

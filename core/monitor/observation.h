@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/model/cell.h"
+#include "core/trajectory/trajectory.h"
+
+namespace armloom {
+
+// What the monitor knows of one arm in a period.
+struct ArmObservation {
+  TrajectoryPtr motion = {};  // null if the arm has none
+  Duration measured{};        // progress on the motion
+  Duration commanded{};
+  Duration authority{};  // largest permitted progress
+  // False while the arm waits for its start, moves or brakes.
+  bool rests = true;
+  bool brakes = false;                    // it comes to rest and has no other command
+  std::optional<Duration> rests_at = {};  // while it brakes: the progress where it will rest
+  // Distance from the path at the start of the motion (rad, m), for which it was certified.
+  double off_path = 0.0;
+  Duration feedback_age{};  // since the last new report
+};
+
+struct Observation {
+  TimePoint time;
+  Configuration measured;            // all joints of the cell
+  std::vector<ArmObservation> arms;  // by ArmId
+};
+
+}  // namespace armloom

@@ -1,0 +1,335 @@
+#include "core/monitor/premises.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace armloom {
+namespace {
+
+// Sampled positions on the searched part of a path; between them the path is nearly straight.
+constexpr Duration kSample = std::chrono::milliseconds(5);
+constexpr int kSamplesMax = 64;
+constexpr int kHalvings = 12;
+// An arm that moved without a motion counts as at rest if it stays within its limit so long.
+constexpr Duration kStill = std::chrono::milliseconds(500);
+
+struct Farthest {
+  double distance = 0.0;
+  std::optional<JointId> joint = {};
+};
+
+class PathPoints {
+ public:
+  PathPoints(const Trajectory& motion, const std::vector<JointId>& joints,
+             const Configuration& measured)
+      : motion_(motion), measured_(measured) {
+    for (std::size_t row = 0; row < motion.joints().size(); ++row) {
+      if (std::ranges::count(joints, motion.joints()[row]) > 0) rows_.push_back(row);
+    }
+  }
+  PathDistance at(Duration progress) {
+    motion_.sample_positions(progress, path_);
+    PathDistance far{0.0, rows_.empty() ? JointId{0} : motion_.joints()[rows_.front()], progress};
+    for (const std::size_t row : rows_) {
+      const JointId joint = motion_.joints()[row];
+      const double away =
+          std::abs(measured_[joint.value()] - path_[static_cast<Eigen::Index>(row)]);
+      if (away > far.distance) far = {away, joint, progress};
+    }
+    return far;
+  }
+
+ private:
+  const Trajectory& motion_;
+  const Configuration& measured_;
+  std::vector<std::size_t> rows_;
+  Eigen::VectorXd path_;
+};
+
+bool moves(const Trajectory& motion, JointId joint) {
+  return std::ranges::count(motion.joints(), joint) > 0;
+}
+
+}  // namespace
+
+PathDistance distance_from_path(const Trajectory& motion, const std::vector<JointId>& joints,
+                                Duration from, Duration to, const Configuration& measured,
+                                double enough) {
+  PathPoints points(motion, joints, measured);
+  PathDistance best = points.at(from);
+  if (best.distance <= enough || to <= from) return best;
+  const auto count = std::clamp<std::int64_t>((to - from) / kSample + 1, 1, kSamplesMax);
+  Duration step = (to - from) / count;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    const PathDistance one = points.at(i == count ? to : from + i * step);
+    if (one.distance < best.distance) best = one;
+    if (best.distance <= enough) return best;
+  }
+  for (int i = 0; i < kHalvings && step > Duration{1}; ++i) {
+    step /= 2;
+    for (const Duration progress : {best.progress - step, best.progress + step}) {
+      if (progress < from || progress > to) continue;
+      const PathDistance one = points.at(progress);
+      if (one.distance < best.distance) best = one;
+    }
+    if (best.distance <= enough) return best;
+  }
+  return best;
+}
+
+double PremiseCheck::tracking_error(const Cell& cell, ArmId arm) {
+  return cell.tracking_error(cell.arm(arm).robot);
+}
+
+PremiseCheck::PremiseCheck(CellPtr cell) : cell_(std::move(cell)), arms_(cell_->arms.size()) {
+  velocity_ = Configuration::Zero(static_cast<Eigen::Index>(cell_->joints.size()));
+  for (std::size_t a = 0; a < arms_.size(); ++a) {
+    const Arm& arm = cell_->arms[a];
+    arms_[a].joints = arm.joints;
+    arms_[a].joints.insert(arms_[a].joints.end(), arm.gripper_joints.begin(),
+                           arm.gripper_joints.end());
+    arms_[a].rest = cell_->home();
+    arms_[a].rested = true;
+  }
+}
+
+std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
+  std::vector<MonitorFinding> found;
+  if (time_ && seen.time > *time_) {
+    velocity_ = (seen.measured - measured_) / to_seconds(seen.time - *time_);
+  }
+  for (std::uint32_t a = 0; a < arms_.size(); ++a) {
+    const ArmId arm{a};
+    ArmState& state = arms_[a];
+    state.as_certified = true;
+    state.deviation = 0.0;
+    check_feedback(arm, seen, found);
+    if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
+      check_path(arm, seen, found);
+      check_rest(arm, seen, found);
+    }
+    state.last = seen.arms[a];
+  }
+  measured_ = seen.measured;
+  time_ = seen.time;
+  return found;
+}
+
+// Reports a violation when it begins, or goes on after a rest.
+void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,
+                         std::vector<MonitorFinding>& found) {
+  Violation& known = arms_[arm.index()].violations[static_cast<std::size_t>(finding.kind)];
+  if (!holds) {
+    known = {};
+    return;
+  }
+  const bool is_new = !known.holds || (known.has_rested && !rests);
+  known.has_rested = !is_new && (known.has_rested || rests);
+  known.holds = true;
+  if (!is_new) return;
+  finding.arm = arm;
+  // The link of an arm without reports stops it (core/executive/link_watch.h).
+  if (finding.kind != Kind::late_feedback) finding.stops = {arm};
+  found.push_back(std::move(finding));
+}
+
+// ---- Feedback ----
+
+void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
+                                  std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
+  const ArmObservation& now = seen.arms[arm.index()];
+  const Duration timeout = cell_->robots[cell_->arm(arm).robot.index()].controller.feedback_timeout;
+  judge(arm, now.feedback_age > timeout, now.rests,
+        {.kind = Kind::late_feedback,
+         .time = seen.time,
+         .value = to_seconds(now.feedback_age),
+         .limit = to_seconds(timeout)},
+        found);
+
+  // Positions that change faster than the joints can move.
+  const TimePoint fresh_at = seen.time - now.feedback_age;
+  if (time_ && fresh_at > state.fresh_at) {
+    const double elapsed_s = to_seconds(fresh_at - state.fresh_at);
+    // Measured with an error twice; an arm that starts off its path approaches it.
+    const double slack = 2.0 * tracking_error(*cell_, arm) + now.off_path +
+                         std::max(state.deviation, state.last.off_path);
+    Farthest far;
+    double limit = 0.0, excess = 0.0;
+    for (const JointId joint : state.joints) {
+      const double most =
+          cell_->joint(joint).velocity_max * (1.0 + cell_->checking.limit_tolerance) * elapsed_s +
+          slack;
+      const double by = std::abs(seen.measured[joint.value()] - measured_[joint.value()]);
+      if (by - most <= excess) continue;
+      excess = by - most;
+      far = {by, joint};
+      limit = most;
+    }
+    judge(arm, far.joint.has_value(), now.rests,
+          {.kind = Kind::implausible_feedback,
+           .time = seen.time,
+           .joint = far.joint,
+           .value = far.distance,
+           .limit = limit},
+          found);
+  }
+  state.fresh_at = std::max(state.fresh_at, fresh_at);
+
+  // Positions that stay while the commanded progress goes on.
+  const bool changed = !time_ || std::ranges::any_of(state.joints, [&](JointId joint) {
+    return seen.measured[joint.value()] != measured_[joint.value()];
+  });
+  if (changed || now.motion != state.last.motion || now.rests || !now.motion) {
+    state.changed_at = seen.time;
+    state.commanded_then = now.commanded;
+  }
+  bool is_frozen = false;
+  if (seen.time - state.changed_at > timeout && now.commanded - state.commanded_then > timeout) {
+    const double limit = std::max(tracking_error(*cell_, arm), now.off_path);
+    is_frozen = distance_from_path(*now.motion, state.joints, now.commanded, now.commanded,
+                                   seen.measured, limit)
+                    .distance > limit;
+  }
+  judge(arm, is_frozen, now.rests,
+        {.kind = Kind::frozen_feedback,
+         .time = seen.time,
+         .value = to_seconds(seen.time - state.changed_at),
+         .limit = to_seconds(timeout)},
+        found);
+}
+
+// ---- Positions ----
+
+void PremiseCheck::check_path(ArmId arm, const Observation& seen,
+                              std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
+  const ArmObservation& now = seen.arms[arm.index()];
+  if (!now.motion || now.rests) {
+    judge(arm, false, true, {.kind = Kind::beyond_authority, .time = seen.time}, found);
+    // A deviation ends when the arm rests: from then on the rest is checked.
+    Violation& known = state.violations[static_cast<std::size_t>(Kind::deviation)];
+    if (now.motion) known.has_rested = known.holds;
+    if (!now.motion) known = {};
+    return;
+  }
+  const double limit = std::max(tracking_error(*cell_, arm), now.off_path);
+  PathDistance far =
+      distance_from_path(*now.motion, state.joints, now.measured,
+                         std::max(now.commanded, now.measured), seen.measured, limit);
+  double far_limit = limit;
+  for (const JointId joint : state.joints) {  // joints that the motion does not move
+    if (moves(*now.motion, joint)) continue;
+    const double away = std::abs(seen.measured[joint.value()] - state.rest[joint.value()]);
+    const double rest_limit = tracking_error(*cell_, arm);
+    if (away <= rest_limit || far.distance > far_limit) continue;
+    far = {away, joint, now.measured};
+    far_limit = rest_limit;
+  }
+  const bool deviates = far.distance > far_limit;
+  if (deviates) state.deviation = far.distance;
+
+  const bool passed = now.measured > now.authority;
+  state.as_certified = state.as_certified && !deviates && !passed;
+  judge(arm, deviates, false,
+        {.kind = Kind::deviation,
+         .time = seen.time,
+         .joint = far.joint,
+         .value = far.distance,
+         .limit = far_limit},
+        found);
+  judge(arm, passed, false,
+        {.kind = Kind::beyond_authority,
+         .time = seen.time,
+         .value = to_seconds(now.measured),
+         .limit = to_seconds(now.authority)},
+        found);
+}
+
+void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {
+  for (const JointId joint : state.joints) state.rest[joint.value()] = measured[joint.value()];
+}
+
+PathDistance PremiseCheck::nearest(ArmId arm, const Observation& seen) const {
+  const ArmObservation& now = seen.arms[arm.index()];
+  return distance_from_path(*now.motion, joints(arm), now.measured,
+                            std::max(now.commanded, now.measured), seen.measured, 0.0);
+}
+
+// Sets where the arm rests: on its last path, which has no noise, if it is close enough.
+void PremiseCheck::begin_rest(ArmId arm, const Observation& seen) {
+  ArmState& state = arms_[arm.index()];
+  const ArmObservation& now = seen.arms[arm.index()];
+  set_rest(state, seen.measured);
+  const ArmObservation& on = now.motion ? now : state.last;
+  if (!on.motion) return;
+  // A released arm went on for a period at most.
+  const Duration beyond = now.motion || !time_ ? Duration{} : seen.time - *time_;
+  const Duration to = std::min(on.motion->duration(), std::max(on.commanded, on.measured) + beyond);
+  const PathDistance near = distance_from_path(*on.motion, state.joints, std::min(on.measured, to),
+                                               to, seen.measured, 0.0);
+  if (near.distance > tracking_error(*cell_, arm)) return;
+  Eigen::VectorXd path;
+  on.motion->sample_positions(near.progress, path);
+  for (std::size_t row = 0; row < on.motion->joints().size(); ++row) {
+    const JointId joint = on.motion->joints()[row];
+    if (std::ranges::count(state.joints, joint) == 0) continue;
+    state.rest[joint.value()] = path[static_cast<Eigen::Index>(row)];
+  }
+}
+
+void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
+                              std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
+  const ArmObservation& now = seen.arms[arm.index()];
+  const bool rests = !now.motion || now.rests;
+  const double limit = tracking_error(*cell_, arm);
+  if (rests && !state.rested) begin_rest(arm, seen);
+  state.rested = rests;
+  if (!rests) return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = {}}, found);
+  Farthest far;
+  for (const JointId joint : state.joints) {
+    const double away = std::abs(seen.measured[joint.value()] - state.rest[joint.value()]);
+    if (away > far.distance) far = {away, joint};
+  }
+  const bool moved = far.distance > limit;
+  Violation& known = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)];
+  if (known.holds) {  // until it stands still
+    state.as_certified = false;
+    if (seen.time - state.still_since < kStill) return;
+    if (!moved) known = {};
+    set_rest(state, seen.measured);
+    state.still_since = seen.time;
+    return;
+  }
+  if (!moved) return;
+  state.as_certified = false;
+  state.still_since = seen.time;
+  judge(arm, true, true,
+        {.kind = Kind::unplanned_motion,
+         .time = seen.time,
+         .joint = far.joint,
+         .value = far.distance,
+         .limit = limit},
+        found);
+  set_rest(state, seen.measured);
+}
+
+std::optional<MonitorFinding> PremiseCheck::finished(ArmId arm, const Trajectory& motion,
+                                                     const Configuration& measured,
+                                                     TimePoint now) const {
+  const double limit = std::max(tracking_error(*cell_, arm), cell_->execution.start_tolerance_rad);
+  const PathDistance far = distance_from_path(motion, arms_[arm.index()].joints, motion.duration(),
+                                              motion.duration(), measured, limit);
+  if (far.distance <= limit) return std::nullopt;
+  return MonitorFinding{.kind = Kind::early_finish,
+                        .time = now,
+                        .stops = {arm},
+                        .arm = arm,
+                        .joint = far.joint,
+                        .value = far.distance,
+                        .limit = limit};
+}
+
+}  // namespace armloom

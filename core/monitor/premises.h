@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/enumeration.h"
+#include "core/monitor/finding.h"
+#include "core/monitor/observation.h"
+
+namespace armloom {
+
+// The joint that is farthest from a path, at the progress where the largest distance is smallest.
+struct PathDistance {
+  double distance = 0.0;  // rad, m
+  JointId joint{0};
+  Duration progress{};
+};
+// Returns how far the arm's joints are from one common point of the motion between the progress
+// `from` and `to`. At most `enough` if such a point exists; else exact to 1 %. `joints`: joints of
+// the arm; those that the motion does not move are ignored. Pure.
+[[nodiscard]] PathDistance distance_from_path(const Trajectory& motion,
+                                              const std::vector<JointId>& joints, Duration from,
+                                              Duration to, const Configuration& measured,
+                                              double enough);
+
+// Checks on measured data what certificates take for granted: each joint stays close to its path or
+// rest, no arm passes its authority, and feedback is new and plausible. A lagging arm is no
+// violation. Pure; deterministic; not thread-safe.
+class PremiseCheck {
+ public:
+  explicit PremiseCheck(CellPtr cell);
+
+  // Returns the new findings of this period; each stops its arm, except
+  // late_feedback. A violation is reported when it
+  // begins, and again if the arm moves on after it came to rest. `time` grows from call to call.
+  [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen);
+  // Checks an arm whose controller reports "finished". Returns a finding if it is not at the goal.
+  [[nodiscard]] std::optional<MonitorFinding> finished(ArmId arm, const Trajectory& motion,
+                                                       const Configuration& measured,
+                                                       TimePoint now) const;
+
+  // Returns the distance of the arm from its path if it exceeds the limit, else zero (rad, m). As
+  // of the last check().
+  [[nodiscard]] double deviation(ArmId arm) const { return arms_[arm.index()].deviation; }
+  // Returns false if the arm is not where its certificates assume: it deviates, moves without a
+  // motion, or is beyond its authority.
+  [[nodiscard]] bool is_as_certified(ArmId arm) const { return arms_[arm.index()].as_certified; }
+  // Returns the measured velocities of all joints (rad/s, m/s) in the last period.
+  [[nodiscard]] const Configuration& velocity() const { return velocity_; }
+
+  // Returns the point of the arm's motion that is nearest to the measured positions, between the
+  // measured and the commanded progress. Precondition: the arm has a motion.
+  [[nodiscard]] PathDistance nearest(ArmId arm, const Observation& seen) const;
+  // Returns the joints of the arm and of its gripper.
+  [[nodiscard]] const std::vector<JointId>& joints(ArmId arm) const {
+    return arms_[arm.index()].joints;
+  }
+
+  [[nodiscard]] static double tracking_error(const Cell& cell, ArmId arm);
+
+ private:
+  using Kind = MonitorFinding::Kind;
+  struct Violation {
+    bool holds = false;
+    bool has_rested = false;  // since it was reported
+  };
+  struct ArmState {
+    std::vector<JointId> joints;  // of the arm and its gripper
+    Configuration rest;           // by JointId, where each joint rests
+    bool rested = false;          // in the last check
+    ArmObservation last;
+    TimePoint fresh_at{};       // time of the last new feedback
+    TimePoint changed_at{};     // when the positions last changed
+    Duration commanded_then{};  // commanded progress then
+    TimePoint still_since{};    // unplanned_motion: start of the present window
+    double deviation = 0.0;
+    bool as_certified = true;
+    std::array<Violation, kValueCount<Kind>> violations;
+  };
+  void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void begin_rest(ArmId arm, const Observation& seen);
+  static void set_rest(ArmState& state, const Configuration& measured);
+  void judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,
+             std::vector<MonitorFinding>& found);
+
+  CellPtr cell_;
+  std::vector<ArmState> arms_;
+  std::optional<TimePoint> time_;
+  Configuration measured_, velocity_;
+};
+
+}  // namespace armloom

@@ -1,0 +1,242 @@
+#include "core/monitor/look_ahead.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "test/monitor/two_joint_arms.h"
+
+namespace armloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr Duration kPeriod = 10ms;
+
+// Every arm is a point on one line: its first joint plus `base`. Arms meet within 0.01 m.
+struct Line final : ReachGeometry {
+  struct Range {
+    double low, high;
+  };
+  Range range(const Reach& reach) const {
+    const auto j = static_cast<Eigen::Index>(2 * reach.arm.index());
+    double from = reach.rest[j], to = from;
+    if (reach.motion) {
+      Eigen::VectorXd q;
+      reach.motion->sample_positions(reach.from, q);
+      from = q[0];
+      reach.motion->sample_positions(reach.to, q);
+      to = q[0];
+    }
+    const double sign = signs[reach.arm.index()], at = bases[reach.arm.index()];
+    const double one = at + sign * (from + reach.shift[j]), two = at + sign * (to + reach.shift[j]);
+    return {std::min(one, two) - reach.error[j], std::max(one, two) + reach.error[j]};
+  }
+  std::optional<Proximity> may_meet(const Reach& a, const Reach& b) override {
+    ++asked;
+    const Range one = range(a), two = range(b);
+    if (one.low > two.high + 0.01 || two.low > one.high + 0.01) return std::nullopt;
+    return Proximity{.body_a = "a", .body_b = "b", .arm_a = a.arm, .arm_b = b.arm,
+                     .limit_m = 0.01};
+  }
+  std::optional<Proximity> may_meet_scene(const Reach& a) override {
+    ++asked;
+    if (!wall || range(a).high < *wall - 0.01) return std::nullopt;
+    return Proximity{.body_a = "a", .body_b = "wall", .arm_a = a.arm, .limit_m = 0.01};
+  }
+  std::vector<double> bases, signs;
+  std::optional<double> wall;
+  int asked = 0;
+};
+
+struct Certificates final : CertifiedPairs {
+  bool certifies(ArmId, ArmId) const override { return all; }
+  bool certifies_scene(ArmId) const override { return all; }
+  bool all = false;
+};
+
+// Arms that move at 1 m/s along the curve of two_joint_arms.h. A stop takes 1 / (2 * 9) s of
+// trajectory time, because the path needs none of the brake of joint 0 and 1 rad/s^2 of joint 1.
+struct Ahead {
+  explicit Ahead(std::uint32_t arms) : cell(two_joint_arms(arms)), seen{.arms = {}} {
+    seen.measured = Configuration::Zero(2 * arms);
+    seen.arms.resize(arms);
+    line.bases.resize(arms, 0.0);
+    line.signs.resize(arms, 1.0);
+  }
+  void on_path(std::uint32_t a, Duration progress) {
+    const TrajectoryPtr curve = curves.size() > a && curves[a] ? curves[a] : curve_of(ArmId{a});
+    curves.resize(std::max<std::size_t>(curves.size(), a + 1));
+    curves[a] = curve;
+    Eigen::VectorXd q;
+    curve->sample_positions(progress, q);
+    seen.measured[2 * a] = q[0];
+    seen.measured[2 * a + 1] = q[1];
+    seen.arms[a].motion = curve;
+    seen.arms[a].measured = seen.arms[a].commanded = progress;
+    seen.arms[a].authority = 2s;
+    seen.arms[a].rests = false;
+  }
+  std::vector<MonitorFinding> look() {
+    seen.time += kPeriod;
+    std::vector<bool> stopping(seen.arms.size(), false);
+    for (const MonitorFinding& found : premises.check(seen)) {
+      for (const ArmId arm : found.stops) stopping[arm.index()] = true;
+    }
+    return ahead.check(seen, premises, stopping, certificates, line);
+  }
+  CellPtr cell;
+  PremiseCheck premises{cell};
+  LookAhead ahead{cell, kPeriod};
+  Observation seen;
+  Certificates certificates;
+  Line line;
+  std::vector<TrajectoryPtr> curves;
+};
+
+TEST(LookAhead, AsksNothingAboutCertifiedPairs) {
+  Ahead a(2);
+  a.certificates.all = true;
+  a.on_path(0, 500ms);
+  a.on_path(1, 500ms);
+  EXPECT_THAT(a.look(), IsEmpty());
+  EXPECT_EQ(a.line.asked, 0);
+}
+
+TEST(LookAhead, AsksNothingAboutArmsAtRest) {
+  Ahead a(3);
+  EXPECT_THAT(a.look(), IsEmpty());
+  EXPECT_EQ(a.line.asked, 0);
+}
+
+// Drives an arm towards an arm at rest. Returns where it rests if it is stopped when the monitor
+// says so.
+TEST(LookAhead, StopsAnArmWhenTheNextPeriodWouldBeTooLate) {
+  Ahead a(2);
+  a.line.bases = {0.0, 1.5};
+  Duration progress = 500ms;
+  std::vector<MonitorFinding> found;
+  while (found.empty() && progress < 2s) {
+    a.on_path(0, progress += kPeriod);
+    found = a.look();
+  }
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].kind, MonitorFinding::Kind::approach);
+  EXPECT_EQ(found[0].limit_m, 0.01);
+  EXPECT_THAT(found[0].stops, ElementsAre(ArmId{0}));
+  const auto reach = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, true);
+  EXPECT_LT(to_seconds(reach.braking.to), 1.49) << "it rests in time";
+  EXPECT_GT(to_seconds(reach.braking.to) + to_seconds(kPeriod), 1.49) << "and not too early";
+}
+
+TEST(LookAhead, StopsOneOfTwoArmsIfThatIsEnough) {
+  Ahead a(2);
+  // Both reaches overlap only in their last 5 ms.
+  a.line.signs = {1.0, -1.0};
+  a.on_path(0, 500ms);
+  a.on_path(1, 500ms);
+  const Duration going = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, false).going.to;
+  a.line.bases = {0.0, 2 * to_seconds(going) + 0.01 - 0.005};
+  const auto found = a.look();
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].stops, ElementsAre(ArmId{0}));
+}
+
+TEST(LookAhead, StopsBothArmsIfOneIsNotEnough) {
+  Ahead a(2);
+  a.line.signs = {1.0, -1.0};
+  a.on_path(0, 500ms);
+  a.on_path(1, 500ms);
+  const Duration going = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, false).going.to;
+  a.line.bases = {0.0, 2 * to_seconds(going) + 0.01 - 0.015};
+  EXPECT_THAT(a.look().at(0).stops, ElementsAre(ArmId{0}, ArmId{1}));
+}
+
+TEST(LookAhead, StopsTheArmBetweenTwoOthersOnly) {
+  Ahead a(3);
+  a.line.signs = {1.0, 1.0, 1.0};
+  for (std::uint32_t arm : {0U, 1U, 2U}) a.on_path(arm, 500ms);
+  // Arm 2 follows close behind arm 0 and arm 1, which are at the same place but ask for nothing:
+  // stopping either of them does not help the other.
+  const Duration going = a.ahead.reach_of(ArmId{2}, a.seen, a.premises, false).going.to;
+  const double reach_m = to_seconds(going) - 0.5;
+  a.line.bases = {reach_m + 0.01 - 0.005, -10.0, 0.0};
+  const auto found = a.look();
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].stops, ElementsAre(ArmId{2})) << "the leader's stop would not help";
+}
+
+TEST(LookAhead, NeverLooksBeyondTheAuthority) {
+  Ahead a(2);
+  a.line.bases = {0.0, 0.53};
+  a.on_path(0, 500ms);
+  a.seen.arms[0].authority = 510ms;
+  EXPECT_THAT(a.look(), IsEmpty());
+  a.seen.arms[0].authority = 525ms;
+  EXPECT_THAT(a.look(), SizeIs(1));
+}
+
+TEST(LookAhead, StopsAnArmThatApproachesTheScene) {
+  Ahead a(1);
+  a.line.wall = 0.585;
+  a.on_path(0, 500ms);
+  const auto found = a.look();
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].proximity.body_b, "wall");
+  EXPECT_THAT(found[0].stops, ElementsAre(ArmId{0}));
+}
+
+TEST(LookAhead, ReportsAConflictOnceIfNoStopHelps) {
+  Ahead a(2);
+  a.line.bases = {0.0, 0.55};
+  a.on_path(0, 500ms);
+  a.seen.arms[0].brakes = true;
+  const auto found = a.look();
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].stops, IsEmpty());
+  EXPECT_THAT(a.look(), IsEmpty());
+}
+
+TEST(LookAhead, TrustsTheRestOfABrakingArm) {
+  Ahead a(2);
+  a.line.bases = {0.0, 0.55};
+  a.on_path(0, 500ms);
+  a.seen.arms[0].brakes = true;
+  a.seen.arms[0].rests_at = 530ms;
+  EXPECT_THAT(a.look(), IsEmpty());
+}
+
+// Joint 0 leaves the path at 0.2 rad/s. With 20 ms reaction and a brake of 10 rad/s^2 it goes
+// 0.2 * 0.02 + 0.2^2 / 20 = 0.006 rad farther.
+TEST(LookAhead, ExtrapolatesAnArmThatLeftItsPath) {
+  Ahead a(1);
+  a.certificates.all = true;
+  a.on_path(0, 500ms);
+  ASSERT_THAT(a.look(), IsEmpty());
+  for (int i = 1; i <= 3; ++i) {
+    a.on_path(0, 500ms + i * kPeriod);
+    a.seen.measured[0] -= 0.002 * i;  // behind the path, whose second joint does not fit
+    ASSERT_THAT(a.look(), IsEmpty());
+  }
+  const Reach reach = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, true).braking;
+  EXPECT_NEAR(reach.shift[0] - reach.error[0], -0.012, 1e-9);
+  EXPECT_NEAR(reach.shift[0] + reach.error[0], -0.006, 1e-9);
+  EXPECT_EQ(reach.error[1], 0.0);
+}
+
+TEST(LookAhead, KeepsAnArmInReachThatMovesWithoutAMotion) {
+  Ahead a(2);
+  a.line.bases = {0.0, 0.05};
+  ASSERT_THAT(a.look(), IsEmpty());
+  a.seen.measured[0] += 0.01;  // 1 rad/s: 0.02 + 0.05 rad until it rests
+  const auto reach = [&] { return a.ahead.reach_of(ArmId{0}, a.seen, a.premises, true).going; };
+  const auto found = a.look();
+  ASSERT_THAT(found, SizeIs(1)) << "it may reach the other arm";
+  EXPECT_THAT(found[0].stops, IsEmpty()) << "both rest: no stop helps";
+  EXPECT_NEAR(reach().shift[0] + reach().error[0], 0.07, 1e-9);
+  EXPECT_NEAR(reach().shift[0] - reach().error[0], 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace armloom
