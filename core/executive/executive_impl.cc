@@ -42,6 +42,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
             note(input);
+            clock_.quiet = false;  // a fault may change reports of arms at rest
             return clock_.now;
           },
           {.certify = [this](const Question& question) { certify(question); },
