@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -24,12 +25,13 @@ constexpr std::size_t kStatesMax = 20'000;  // that are audited at once
 // Collects what an audit needs, and what the monitor does.
 class Witness final : public Observer {
  public:
-  explicit Witness(CellPtr cell) : cell_(std::move(cell)) {}
+  Witness(CellPtr cell, bool verbose) : cell_(std::move(cell)), verbose_(verbose) {}
 
   void on_event(const Event& event) override {
     mix(event.seq);
     mix(static_cast<std::uint64_t>(event.time.time_since_epoch().count()));
     mix(event.body.index());
+    if (verbose_) print(event);
     if (const auto* arm = std::get_if<ArmView>(&event.body)) jobs_[arm->name] = arm->job;
     if (std::holds_alternative<GuardEvent>(event.body)) ++refusals;
     if (const auto* found = std::get_if<MonitorEvent>(&event.body)) see(event.time, *found);
@@ -84,6 +86,13 @@ class Witness final : public Observer {
  private:
   void mix(std::uint64_t word) { fingerprint = (fingerprint ^ word) * 1099511628211U; }
 
+  static void print(const Event& event) {
+    std::string text;
+    if (const auto* alert = std::get_if<Alert>(&event.body)) text = alert->text;
+    if (const auto* job = std::get_if<JobView>(&event.body)) text = told(*job);
+    if (!text.empty()) std::fprintf(stderr, "%9.3f s  %s\n", to_seconds(event.time), text.c_str());
+  }
+
   void see(TimePoint time, const MonitorEvent& event) {
     const auto is_excused = [&](const std::string& arm) {
       return std::ranges::any_of(faulty, [&](const std::string& other) {
@@ -108,6 +117,7 @@ class Witness final : public Observer {
   }
 
   CellPtr cell_;
+  bool verbose_;
   std::map<std::string, std::string> jobs_;  // by arm
   std::vector<RecordedState> states_;
   std::optional<TimePoint> rests_until_;
@@ -128,7 +138,7 @@ class FaultRun {
     auto cell = build_cell(description);
     if (!cell) throw std::runtime_error(cell.error().front().detail);
     cell_ = *cell;
-    witness_ = std::make_unique<Witness>(cell_);
+    witness_ = std::make_unique<Witness>(cell_, plan.verbose);
     auto created = Simulation::create(
         cell_,
         ExecutiveOptions{.policy = plan.policy, .seed = plan.seed, .monitored = plan.monitored},
@@ -173,7 +183,7 @@ class FaultRun {
     for (const JobView& job : executive().snapshot().jobs) {
       if (job.state == JobState::succeeded) ++result.succeeded;
       if (is_terminal(job.state)) continue;
-      if (job.waits_on.empty()) {
+      if (job.waits_on.empty() && !moves(job)) {
         result.silent.push_back(told(job));
       } else {
         ++result.waiting;
@@ -183,6 +193,11 @@ class FaultRun {
   }
 
  private:
+  [[nodiscard]] bool moves(const JobView& job) {
+    return std::ranges::any_of(executive().arms(), [&](const ArmView& arm) {
+      return arm.job == job.key && arm.state == ArmState::moving;
+    });
+  }
   [[nodiscard]] bool is_done() {
     if (now() < at(plan_.jobs_for)) return false;
     return now() >= at(plan_.jobs_for + kPatience) ||
@@ -199,8 +214,15 @@ class FaultRun {
     jobs_->accepted(accepted->key, copy);
   }
 
+  // Strikes an arm in motion, if there is one within two seconds.
   void strike() {
-    const std::string arm = jobs_->arms()[random_.index(jobs_->arms().size())].name;
+    std::vector<std::string> arms;
+    for (const ArmView& arm : executive().arms()) {
+      if (arm.state == ArmState::moving) arms.push_back(arm.name);
+    }
+    if (arms.empty() && now() < strikes_at_ + kReacts) return;
+    if (arms.empty()) arms.push_back(jobs_->arms().front().name);
+    const std::string arm = arms[random_.index(arms.size())];
     witness_->faulty.insert(arm);
     const auto& list = listed_faults();
     const ListedFault& fault =
@@ -257,7 +279,7 @@ FaultRunResult run_with_faults(const FaultRunPlan& plan) {
 }
 
 double distance_without_monitor(FaultRunPlan plan, const FaultRunResult::MonitorStop& stop) {
-  plan.monitored = false;
+  plan.monitored = plan.verbose = false;
   FaultRun run(plan);
   auto scene = PlanningScene::build(run.cell());
   if (!scene) throw std::runtime_error(scene.error().front().detail);

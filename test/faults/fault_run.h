@@ -23,6 +23,7 @@ struct FaultRunPlan {
   const ListedFault* fault = nullptr;
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off
+  bool verbose = false;   // prints jobs and alerts to stderr
   Duration jobs_for = std::chrono::seconds(20);  // jobs are submitted for so long
 };
 

@@ -61,8 +61,10 @@ TEST(FaultRun, FindsContactsIfTheMonitorIsOff) {
 }
 
 TEST(FaultRun, StopsNoArmForNoiseAndLagWithinThePromises) {
-  const FaultRunResult result = run_with_faults(
-      {.seed = 7, .policy = "earliest_start", .faulty = false, .jobs_for = std::chrono::minutes(2)});
+  const FaultRunResult result = run_with_faults({.seed = 7,
+                                                 .policy = "earliest_start",
+                                                 .faulty = false,
+                                                 .jobs_for = std::chrono::minutes(2)});
   EXPECT_EQ(result.stops.size(), 0U);
   EXPECT_FALSE(result.contact);
   EXPECT_GT(result.succeeded, 20U);
