@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/arm/faulty_arm.h"
+#include "core/arm/faulty_link.h"
 #include "core/arm/simulated_arm.h"
 #include "core/trajectory/set_joints.h"
 
@@ -28,9 +28,9 @@ ControllerTypes simulated_controllers() {
   const auto make = [](const CellPtr& cell, ArmId arm, Eigen::VectorXd q,
                        std::uint64_t seed) -> Result<MadeController> {
     auto simulated = std::make_unique<SimulatedArm>(cell, arm, std::move(q), seed);
-    const auto push = [at = simulated.get()](double by) { at->push(by); };
-    auto made = std::make_unique<FaultyArm>(std::move(simulated), push);
-    FaultyArm* faults = made.get();
+    auto faulty = std::make_unique<FaultyArm>(std::move(simulated), seed);
+    auto made = std::make_unique<FaultyLink>(std::move(faulty), seed);
+    FaultyLink* faults = made.get();
     return MadeController{std::move(made), faults};
   };
   return {{"sim", make}};

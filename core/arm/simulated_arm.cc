@@ -31,7 +31,7 @@ SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std
                            " entries for " + std::to_string(joints_.size()) + " joints");
   }
   path_.rows.assign(joints_.size(), -1);
-  offset_.left = Eigen::VectorXd::Zero(position_.size());
+  offset_.left = pushed_ = Eigen::VectorXd::Zero(position_.size());
   feedback_.measured = position_;
 }
 
@@ -84,7 +84,7 @@ std::string SimulatedArm::mapped(const ArmCommand::Follow& follow) {
   }
   path_ = {follow.trajectory, std::move(rows), at, at};
   offset_ = {std::move(offset), away > 0.0};
-  pushed_ = 0.0;
+  pushed_.setZero();
   return {};
 }
 
@@ -284,14 +284,13 @@ void SimulatedArm::place() {
   path_.trajectory->sample_positions(feedback_.measured_progress, path_.at);
   for (std::size_t j = 0; j < path_.rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
-    if (path_.rows[j] >= 0) position_[i] = path_.at[path_.rows[j]] + offset_.left[i];
+    if (path_.rows[j] >= 0) position_[i] = path_.at[path_.rows[j]] + offset_.left[i] + pushed_[i];
   }
-  if (path_.rows[0] >= 0) position_[0] += pushed_;
 }
 
-void SimulatedArm::push(double by) {
-  pushed_ += by;
-  position_[0] += by;
+void SimulatedArm::push(Eigen::Index joint, double distance) {
+  pushed_[joint] += distance;
+  position_[joint] += distance;
   if (controller_.noise_rad <= 0.0) feedback_.measured = position_;
 }
 

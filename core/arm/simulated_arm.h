@@ -43,9 +43,8 @@ class SimulatedArm final : public ArmController {
   void send(const ArmCommand& command) override;
   [[nodiscard]] const ArmFeedback* poll(TimePoint now) override;
   [[nodiscard]] const Eigen::VectorXd* true_positions() const override { return &position_; }
-  // Moves the first joint off its path, or off its rest, by this distance (rad, m). The distance
-  // remains until the arm follows another motion.
-  void push(double by);
+  // Moves a joint by `distance` (rad, m) off its path. It stays off until the next motion.
+  void push(Eigen::Index joint, double distance);
   // Runs one control cycle up to `now` and returns the arm's state. Called by poll().
   const ArmFeedback& tick(TimePoint now);
 
@@ -85,12 +84,12 @@ class SimulatedArm final : public ArmController {
   };
   Path path_;
   Eigen::VectorXd position_;  // true positions of joints_
+  Eigen::VectorXd pushed_;    // distance from the path, by push() since the start of the motion
   struct Offset {
     Eigen::VectorXd left;  // what remains of the distance of joints_ from the path at the start
     bool is_any = false;
   };
   Offset offset_;
-  double pushed_ = 0.0;                      // distance of the first joint from the path by push()
   std::optional<Eigen::VectorXd> coasting_;  // velocities of joints_ while the drives are off
   bool switches_off_ = false;                // at the end of this brake
   ArmFeedback feedback_;

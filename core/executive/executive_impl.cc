@@ -42,6 +42,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
             note(input);
+            clock_.quiet = false;  // a fault may change reports of arms at rest
             return clock_.now;
           },
           {.certify = [this](const Question& question) { certify(question); },
@@ -50,7 +51,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                [this](JobId job) { publisher_.tell_job(publisher_.view(job), clock_.now); }}),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
-      clock_{.dies_at = options.dies_at, .inputs = options.inputs},
+      clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
                   execution_.starts(), scene_},
                  observer),
@@ -201,7 +202,7 @@ void Executive::Impl::tick(TimePoint now) {
   forget_rolled_back();
   count_.motion(motions);
   watch_links();
-  if (watch_.is_due(now)) watch();
+  if (clock_.monitored && watch_.is_due(now)) watch();
   publisher_.tell_queue(now);
   publisher_.tell_scene(now);
   publisher_.tell_arms(now);

@@ -20,7 +20,7 @@ bool at_rest(Phase phase) {
 
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
-    : cell_(std::move(cell)), shares_(controllers.size(), 1.0), measured_(std::move(measured)) {
+    : cell_(std::move(cell)), measured_(std::move(measured)), truth_(measured_) {
   for (std::size_t a = 0; a < controllers.size(); ++a) {
     const Robot& robot = cell_->robots[cell_->arms[a].robot.index()];
     ArmLink link(robot.controller, joints_of(measured_, controllers[a]->joints()));
@@ -102,21 +102,10 @@ void Motions::tick_arms(TimePoint now) {
     const ArmFeedback& feedback = arm.link.feedback();
     const bool moves = feedback.phase == Phase::moving || feedback.phase == Phase::braking;
     arm.advances = feedback.measured_progress != before && moves;
-    const auto& joints = arm.controller->joints();
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      measured_[static_cast<Eigen::Index>(joints[j].index())] =
-          feedback.measured[static_cast<Eigen::Index>(j)];
-    }
-  }
-}
-
-Configuration Motions::true_positions() const {
-  Configuration q = measured_;
-  for (const LinkedArm& arm : arms_) {
+    set_joints(measured_, arm.controller->joints(), feedback.measured);
     const Eigen::VectorXd* truth = arm.controller->true_positions();
-    if (truth != nullptr) set_joints(q, arm.controller->joints(), *truth);
+    set_joints(truth_, arm.controller->joints(), truth == nullptr ? feedback.measured : *truth);
   }
-  return q;
 }
 
 const std::vector<MotionReport>& Motions::tick(TimePoint now) {

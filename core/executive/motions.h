@@ -42,8 +42,9 @@ class Motions {
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return link(arm).feedback(); }
   [[nodiscard]] const ArmLink& link(ArmId arm) const { return arms_[arm.index()].link; }
-  // Positions of all joints as they really are, where arms are simulated; else as measured.
-  [[nodiscard]] Configuration true_positions() const;
+  // Positions of all joints in the last tick as they really were, where arms are simulated; else as
+  // measured.
+  [[nodiscard]] const Configuration& true_positions() const { return truth_; }
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return arms_[arm.index()].advances; }
@@ -96,6 +97,7 @@ class Motions {
   std::vector<LinkedArm> arms_;  // by ArmId
   std::vector<double> shares_;   // by ArmId: speed override
   Configuration measured_;
+  Configuration truth_;
   std::map<JobId, Motion> motions_;
   std::vector<MotionReport> reports_;
 };

@@ -20,27 +20,95 @@ namespace {
 using FaultKind = ArmFault::Kind;
 
 constexpr double kFaultTimeMax_s = 1e6;
-constexpr double kDriftMax = 10.0;  // rad/s, m/s
 constexpr std::size_t kFaultsFileMax = 10'000;
 
+constexpr NumberRange kFaultSpeed{-10.0, 10.0};  // rad/s, m/s
+constexpr NumberRange kFaultDelay_s{0.0, 10.0};
+
+// The value of a kind of fault.
+struct ValueRule {
+  const char* meaning;  // with its unit
+  NumberRange range;
+  std::optional<double> by_default = {};  // nullopt: the value is required
+};
 struct KindRule {
   FaultKind kind;
   const char* name;
-  double value_max;  // highest `value`; zero if the kind has none
-  bool lasts;        // may have `for_s`
+  const char* effect;  // a sentence
+  std::optional<ValueRule> value = {};
+  bool lasts = true;  // may have `for_s`
 };
-constexpr std::array<KindRule, 6> kKinds{
-    {{FaultKind::stall, "stall", 0.0, true},
-     {FaultKind::slow, "slow", 1.0, true},
-     {FaultKind::late_start, "late_start", kFaultTimeMax_s, true},
-     {FaultKind::drop_feedback, "drop_feedback", 0.0, true},
-     {FaultKind::fault, "fault", 0.0, false},
-     {FaultKind::drift, "drift", kDriftMax, true}}};
-constexpr std::array<const char*, 5> kKindsToCome{"freeze_feedback", "reject", "runaway",
-                                                  "ignore_stop", "noise"};
+const std::array kKinds{
+    KindRule{FaultKind::stall, "stall", "the arm stays where it is on its path"},
+    KindRule{FaultKind::slow, "slow", "the arm follows its path at a share of its speed",
+             ValueRule{"share of the speed", {0.0, 1.0}}},
+    KindRule{FaultKind::late_start, "late_start", "the arm begins each motion late",
+             ValueRule{"delay in s", {0.0, kFaultTimeMax_s}}},
+    KindRule{.kind = FaultKind::fault,
+             .name = "fault",
+             .effect = "the controller fails once, from `at_s` on: during the present motion, or "
+                       "else as soon as the next motion moves",
+             .lasts = false},
+    KindRule{FaultKind::drop_feedback, "drop_feedback", "no report of the arm arrives"},
+    KindRule{FaultKind::freeze_feedback, "freeze_feedback",
+             "reports arrive with new numbers and times, but with old content"},
+    KindRule{FaultKind::drift, "drift",
+             "the first joint leaves its path, or the position where it rests, until the arm is "
+             "braked. The joint stays off its path until the next motion",
+             ValueRule{"rad/s or m/s", kFaultSpeed, 0.1}},
+    KindRule{.kind = FaultKind::reject,
+             .name = "reject",
+             .effect = "the controller rejects the next motion, once",
+             .lasts = false},
+    KindRule{FaultKind::runaway, "runaway",
+             "the arm passes its authority and goes on to the end of its trajectory: it may hit "
+             "other arms"},
+    KindRule{FaultKind::ignore_stop, "ignore_stop",
+             "the controller acknowledges brakes, but carries them out only when the fault ends. "
+             "Only a stop of category 0 works"},
+    KindRule{FaultKind::noise, "noise", "measured positions have Gaussian noise",
+             ValueRule{"standard deviation in rad or m", {0.0, 1.0}, 0.01}},
+    KindRule{FaultKind::delay, "delay", "commands and reports arrive late",
+             ValueRule{"delay of each message in s", kFaultDelay_s, 0.05}},
+    KindRule{FaultKind::jitter, "jitter", "commands and reports arrive late by random times",
+             ValueRule{"largest delay of a message in s", kFaultDelay_s, 0.02}},
+    KindRule{FaultKind::loss, "loss", "commands and reports are lost at random",
+             ValueRule{"probability for each message", {0.0, 1.0}, 0.1}},
+    KindRule{FaultKind::reorder, "reorder",
+             "commands and reports are overtaken by later ones at random",
+             ValueRule{"probability for each message", {0.0, 1.0}, 0.1}},
+    KindRule{FaultKind::cut, "cut",
+             "the connection is down, and messages under way are lost. The arm brakes by itself"},
+    KindRule{FaultKind::restart, "restart",
+             "the controller is down, and forgets its motion. The arm brakes by itself"},
+    KindRule{FaultKind::clock_drift, "clock_drift",
+             "the controller's clock is too fast, or too slow if the value is negative",
+             ValueRule{"seconds gained in each second", {-0.1, 0.1}, 0.0005}},
+};
 
 const KindRule& rule_of(FaultKind kind) {
   return *std::ranges::find(kKinds, kind, &KindRule::kind);
+}
+
+// "`delay`: delay of each message in s, at least 0 and at most 10, default 0.05"
+std::string described(const KindRule& rule) {
+  std::string text = std::string("`") + rule.name + "`: " + rule.value->meaning + ", " +
+                     in_words(rule.value->range);
+  if (!rule.value->by_default) return text;
+  JsonWriter number;
+  number.value(*rule.value->by_default);
+  return text + ", default " + number.take();
+}
+
+// Joins what `words` returns for each kind, except empty texts.
+template <class Words>
+std::string for_each_kind(const char* between, const Words& words) {
+  std::string all;
+  for (const KindRule& rule : kKinds) {
+    const std::string text = words(rule);
+    if (!text.empty()) all += (all.empty() ? "" : between) + text;
+  }
+  return all;
 }
 
 class KindFormat final : public CustomFormat<FaultKind> {
@@ -51,17 +119,9 @@ class KindFormat final : public CustomFormat<FaultKind> {
     for (const KindRule& rule : kKinds) {
       if (name == rule.name) return void(kind = rule.kind);
     }
-    const bool to_come = std::ranges::find(kKindsToCome, name) != kKindsToCome.end();
-    std::string known;
-    for (const KindRule& rule : kKinds)
-      known += (known.empty() ? "" : ", ") + std::string(rule.name);
-    if (to_come) {
-      node.invalid(
-          "unsupported-fault",
-          "fault \"" + name + "\" is not implemented by simulated arms; available: " + known);
-    } else {
-      node.invalid("unknown-fault", "unknown fault \"" + name + "\"; available: " + known);
-    }
+    node.invalid("unknown-fault",
+                 "unknown fault \"" + name + "\"; available: " +
+                     for_each_kind(", ", [](const KindRule& rule) { return rule.name; }));
   }
   void write(JsonWriter& out, const FaultKind& kind) const override {
     out.value(rule_of(kind).name);
@@ -92,44 +152,46 @@ class KindsOwn final : public CustomPart<FaultRequest> {
     const KindRule& rule = rule_of(fault.kind);
     object.optional("for_s", [&](const JsonNode& node) {
       if (rule.lasts) return seconds({0.0, kFaultTimeMax_s})->read(node, fault.lasting.emplace());
-      node.invalid("no-duration",
-                   "a fault of kind \"fault\" occurs once and has no duration: remove for_s");
+      node.invalid("no-duration", std::string("a fault of kind \"") + rule.name +
+                                      "\" occurs once and has no duration: remove for_s");
     });
-    if (rule.value_max > 0.0) {
-      object.required("value", [&](const JsonNode& node) {
-        number({0.0, rule.value_max})->read(node, fault.value);
-      });
-    } else {
+    if (!rule.value) {
       object.optional("value", [&](const JsonNode& node) {
         node.invalid("no-value",
                      std::string("a fault of kind \"") + rule.name + "\" has no value: remove it");
       });
+      return;
     }
+    const auto read = [&](const JsonNode& node) {
+      number(rule.value->range)->read(node, fault.value);
+    };
+    fault.value = rule.value->by_default.value_or(0.0);
+    rule.value->by_default ? object.optional("value", read) : object.required("value", read);
   }
   void describe(Schema& object, const FaultRequest&, Way way) const override {
     describe_member(object,
                     {"for_s",
                      "Duration; by default, the fault lasts until it is removed. Not allowed for "
-                     "`fault`, which occurs once",
+                     "`fault` and `reject`, which occur once",
                      Need::optional,
                      {}},
                     seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     describe_member(object,
                     {"value",
-                     "`slow`: share of the speed, 0 to 1; `late_start`: delay in seconds; "
-                     "`drift`: rad/s or m/s, up to 10; not allowed for other kinds",
+                     for_each_kind("; ",
+                                   [](const KindRule& rule) {
+                                     return rule.value ? described(rule) : std::string();
+                                   }) +
+                         ". Not allowed for other kinds",
                      Need::optional,
                      {}},
-                    number({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
+                    number({-kFaultTimeMax_s, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     for (const KindRule& rule : kKinds) {
       Schema then = Schema::object();
       if (!rule.lasts) then["properties"]["for_s"] = false;
-      if (rule.value_max > 0.0) {
-        then["properties"]["value"] = number({0.0, rule.value_max})->schema(way);
-        then["required"] = {"value"};
-      } else {
-        then["properties"]["value"] = false;
-      }
+      then["properties"]["value"] =
+          rule.value ? number(rule.value->range)->schema(way) : Schema(false);
+      if (rule.value && !rule.value->by_default) then["required"] = {"value"};
       object["allOf"].push_back(
           {{"if", {{"properties", {{"kind", {{"const", rule.name}}}}}}}, {"then", then}});
     }
@@ -141,7 +203,8 @@ class WithinKind final : public CustomPart<FaultRequest> {
  public:
   void read(const JsonNode& object, FaultRequest& fault) const override {
     const KindRule& rule = rule_of(fault.kind);
-    if (fault.value < 0.0 || fault.value > rule.value_max || (fault.lasting && !rule.lasts)) {
+    const bool fits = rule.value ? rule.value->range.holds(fault.value) : fault.value == 0.0;
+    if (!fits || (fault.lasting && !rule.lasts)) {
       object.invalid("out-of-range",
                      std::string("value or duration not allowed for \"") + rule.name + "\"");
     }
@@ -159,7 +222,8 @@ PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> 
              "Start in cell time; null if the fault begins at once"),
       always(
           "for_s", &Fault::lasting, nullable(std::move(lasting)),
-          "Duration; null if the fault lasts until it is removed (`fault`: until it has occurred)"),
+          "Duration; null if the fault lasts until it is removed (`fault` and `reject`: until it "
+          "has occurred)"),
       always("value", &Fault::value, number(kAnyNumber)),
       make_part<WithinKind>(),
   });
@@ -179,15 +243,15 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
 }  // namespace
 
 FormatPtr<FaultRequest> fault_request_format() {
-  static const auto format = named(
-      "FaultRequest",
-      "A fault of a simulated arm. `stall`: the arm stays where it is on its path. `slow`: the arm "
-      "follows its path at a share of its speed. `late_start`: the arm begins each motion late. "
-      "`drop_feedback`: no report of the arm arrives. `fault`: the controller fails once, "
-      "from `at_s` on: during the present motion, or else as soon as the next motion moves. "
-      "`drift`: the arm's first joint leaves its path, or the position where it rests, until the "
-      "arm is braked or the fault ends; the deviation remains.",
-      make_fault_format(Need::optional));
+  static const auto format =
+      named("FaultRequest",
+            "A fault of a simulated arm, or of the link to its controller. " +
+                for_each_kind(". ",
+                              [](const KindRule& rule) {
+                                return std::string("`") + rule.name + "`: " + rule.effect;
+                              }) +
+                ".",
+            make_fault_format(Need::optional));
   return format;
 }
 

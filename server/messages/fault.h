@@ -11,9 +11,8 @@
 
 namespace armloom {
 
-// Body of POST /sim/faults. `slow` requires a value, the share of the speed in 0..1. `late_start`
-// requires a value in seconds. Problem "unsupported-fault": simulated arms do not have this kind of
-// fault.
+// Body of POST /sim/faults. The kinds of faults, with the ranges and defaults of their values, are a
+// table in fault.cc.
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 

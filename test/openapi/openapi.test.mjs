@@ -369,12 +369,12 @@ test('speed is changed, faults are injected and removed', async () => {
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: {id: 'first'}});
-  for (const body of [{arm: 'nobody', kind: 'stall'}, {arm: 'left', kind: 'drift'}, {arm: 'left', kind: 'slow'},
+  for (const body of [{arm: 'nobody', kind: 'stall'}, {arm: 'left', kind: 'hiccup'}, {arm: 'left', kind: 'slow'},
                       {arm: 'left', kind: 'slow', value: 2}]) {
     await call(422, 'POST', `${v1}/sim/faults`, {body});
   }
   for (const body of [{arm: 'left', kind: 'slow'}, {arm: 'left', kind: 'stall', value: 1}, {arm: 'left', kind: 'fault', value: 1},
-                      {arm: 'left', kind: 'fault', for_s: 1}]) {
+                      {arm: 'left', kind: 'fault', for_s: 1}, {arm: 'left', kind: 'drift', value: 11}]) {
     await call(422, 'POST', `${v1}/sim/faults`, {body});
     assert.ok(!contract.fitsBody(`${v1}/sim/faults`, 'POST', body), JSON.stringify(body));
   }

@@ -102,8 +102,8 @@ FAULTS = {'server_store_test': [
     ('authority may be taken back under a moving arm', PROGRESS, 'authority_ = std::max(authority, stop_from_here());', 'authority_ = FAULT ? authority : std::max(authority, stop_from_here());'),
     ('an arm brakes harder than its limits', RATES, 'const Interval a = within(at_first, first.rate, brake_, share);', 'const Interval a = within(at_first, first.rate, brake_, FAULT ? 2.0 * share : share);'),
     ('an arm speeds up harder than its limits', RATES, 'const double begin = std::clamp(a.highest,', 'const double begin = std::clamp(FAULT ? 2.0 * a.highest : a.highest,'),
-    ('dropped feedback goes on', FAULTY, 'if (!drops) return feedback;', 'if (FAULT || !drops) return feedback;'),
-    ('a stalled arm takes authority', FAULTY, 'if (active(ArmFault::Kind::stall)) allowed', 'if (!FAULT && active(ArmFault::Kind::stall)) allowed'),
+    ('dropped feedback goes on', FAULTY, 'if (active(Kind::drop_feedback)) return nullptr;', 'if (!FAULT && active(Kind::drop_feedback)) return nullptr;'),
+    ('a stalled arm takes authority', FAULTY, 'if (active(Kind::stall)) allowed', 'if (!FAULT && active(Kind::stall)) allowed'),
 ], 'dashboard': [
     ('a known event is processed again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
     ('a lost connection is opened from the start', 'web/src/server/connection.ts', "const resume = this.stream_ === null ?", "const resume = FAULT || this.stream_ === null ?"),

@@ -97,10 +97,15 @@ TEST_F(Verbs, InvalidFaultsAreRefusedWithPlaceAndValue) {
   start(1.0);
   const std::string faults = "/api/v1/sim/faults";
   expect_refused(post(faults, R"({"arm": "middle", "kind": "stall"})"), 422, "/arm", "middle");
-  expect_refused(post(faults, R"({"arm": "left", "kind": "runaway"})"), 422, "/kind", "runaway");
-  EXPECT_EQ(post(faults, R"({"arm": "left", "kind": "runaway"})").json()["type"],
-            "urn:armloom:problem:unsupported-fault");
   expect_refused(post(faults, R"({"arm": "left", "kind": "hiccup"})"), 422, "/kind", "hiccup");
+  expect_refused(post(faults, R"({"arm": "left", "kind": "loss", "value": 1.1})"), 422, "/value",
+                 1.1);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "drift", "value": -11})"), 422, "/value",
+                 -11);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "reject", "for_s": 1})"), 422, "/for_s",
+                 1);
+  expect_refused(post(faults, R"({"arm": "left", "kind": "runaway", "value": 1})"), 422, "/value",
+                 1);
   expect_refused(post(faults, R"({"arm": "left", "kind": "slow"})"), 422, "/value", nullptr);
   expect_refused(post(faults, R"({"arm": "left", "kind": "slow", "value": 1.5})"), 422, "/value",
                  1.5);
@@ -117,6 +122,9 @@ TEST_F(Verbs, InvalidFaultsAreRefusedWithPlaceAndValue) {
   EXPECT_EQ(slow.status, 201) << slow.body;
   EXPECT_EQ(slow.json()["kind"], "slow");
   EXPECT_EQ(slow.json()["at_s"], 1.0);
+  const auto drift = post(faults, R"({"arm": "left", "kind": "drift", "at_s": 1000})");
+  EXPECT_EQ(drift.status, 201) << drift.body;
+  EXPECT_EQ(drift.json()["value"], 0.1) << "the default";
   EXPECT_EQ(remove(slow.headers.at("location")).status, 204);
 }
 
