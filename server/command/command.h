@@ -47,6 +47,15 @@ struct ServeOptions {
 };
 int serve(const ServeOptions& options);
 
+// Runs the simulated arms of one robot as a process of their own, until SIGINT or SIGTERM.
+struct ArmOptions {
+  std::string cell_file;
+  std::string robot;
+  std::string listen;      // see parse_endpoint()
+  std::uint64_t seed = 1;  // of the noise
+};
+int run_arm(const ArmOptions& options);
+
 // Adds, lists or revokes tokens; prints a new token once.
 struct TokenOptions {
   enum class What { add, list, revoke };

@@ -13,6 +13,7 @@
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
+#include "server/codec/whole_format.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/scene.h"
@@ -24,27 +25,6 @@ using namespace formats;
 namespace {
 
 using In = ExecutiveInput;
-
-// An integer with any value of T. The format count() is not enough: it only allows the values that
-// clients may send.
-template <class T>
-class WholeFormat final : public CustomFormat<T> {
- public:
-  void read(const JsonNode& node, T& out) const override {
-    const nlohmann::json& raw = node.raw();
-    const bool fits = raw.is_number_integer() && std::in_range<T>(raw.get<std::int64_t>());
-    if (raw.is_number_unsigned() ? std::in_range<T>(raw.get<std::uint64_t>()) : fits) {
-      return void(out = raw.get<T>());
-    }
-    node.fault(ProblemKind::malformed, "wrong-type", "a whole number is expected here");
-  }
-  void write(JsonWriter& out, const T& number) const override { out.value(number); }
-  Schema schema(Way) const override { return {{"type", "integer"}}; }
-};
-template <class T = std::uint64_t>
-FormatPtr<T> whole() {
-  return make_format<WholeFormat<T>>();
-}
 
 // A job's body as the client sent it. A replay validates it again.
 class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {

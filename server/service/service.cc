@@ -13,6 +13,7 @@
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
+#include "server/drivers/remote_controller.h"
 #include "server/durable/damage.h"
 #include "server/durable/request_trail.h"
 #include "server/durable/restart.h"
@@ -69,6 +70,8 @@ class Service::Impl {
         cell, stream_, *clock_, hub_, states_, recording_.get(), keeper_.get(), *alerts_, post,
         post_urgent, options_.log, [this](Alert alert) { tell(std::move(alert)); }, *metrics_});
     ExecutiveOptions executive_options{.policy = options_.policy};
+    executive_options.controllers = remote_controllers(stream_);
+    executive_options.controllers.merge(simulated_controllers());
     std::optional<Restart> restart;
     if (keeper_) {
       keeper_->serve(*clock_, post);
