@@ -10,7 +10,7 @@
 #include "core/trajectory/set_joints.h"
 #include "server/arm_process/robot_host.h"
 #include "server/command/command.h"
-#include "server/http/framing.h"
+#include "server/http/http_server.h"
 #include "server/log/log_line.h"
 
 namespace armloom {
