@@ -9,6 +9,7 @@
 #include "core/arm/simulated_arm.h"
 #include "core/trajectory/set_joints.h"
 #include "server/arm_process/robot_host.h"
+#include "server/codec/stream_id.h"
 #include "server/command/command.h"
 #include "server/http/http_server.h"
 #include "server/log/log_line.h"
@@ -66,6 +67,10 @@ int run_arm(const ArmOptions& options) {
     return refuse_option("--robot",
                          {ProblemKind::invalid, "unknown-robot", "",
                           "the cell has no such robot; it has: " + known, options.robot});
+  }
+  if (options.hello) {
+    std::cout << line_of(ServerMessage(hello_for(*cell, *robot, random_stream()))) << std::endl;
+    return kExitDone;
   }
   const auto endpoint = parse_endpoint(options.listen);
   if (!endpoint) return refuse_option("--listen", endpoint.error().front());

@@ -208,11 +208,19 @@ Command arm_command(CLI::App& app) {
       "arm", "run the simulated arms of one robot as a process that `armloom serve` connects to");
   add_cell(*command, options->cell_file);
   command->add_option("--robot", options->robot, "robot of the cell file")->required();
+  CLI::Option* listen =
+      command->add_option("--listen", options->listen,
+                          "address at which the server connects: unix:PATH or tcp:ADDRESS:PORT");
   command
-      ->add_option("--listen", options->listen,
-                   "address at which the server connects: unix:PATH or tcp:ADDRESS:PORT")
-      ->required();
+      ->add_flag("--hello", options->hello,
+                 "print the server's first message to this robot, for tests of a driver")
+      ->excludes(listen);
   add_seed(*command, options->seed);
+  command->final_callback([options] {
+    if (options->listen.empty() && !options->hello) {
+      throw CLI::RequiredError("--listen");
+    }
+  });
   return {command, [options] { return run_arm(*options); }};
 }
 
