@@ -251,9 +251,9 @@ class Driver:
             late_s = time.monotonic() - due
             if self.server and late_s > self.timeout_s:
                 self.brake(f"this process was late by {late_s:.3f} s")
-            self.greet(ready)
             if self.server and self.server.socket in ready:
                 self.attempt(self.hear)
+            self.greet(ready)
             if time.monotonic() >= due:
                 due = max(due + self.period_s, time.monotonic())
                 self.attempt(self.cycle)

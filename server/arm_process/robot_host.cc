@@ -64,8 +64,8 @@ void RobotHost::run(const std::function<bool()>& ends) {
     }
     wait(due);
     watch_server();  // before it reads lines that arrived while this process was suspended
-    greet();
     listen_to_server();
+    greet();
     const auto now = Wall::now();
     if (now - due > kCatchUpMax) {
       slip_ += now - due;
@@ -232,7 +232,7 @@ void RobotHost::answer(Peer peer, const Hello& hello) {
   log_({LogLine::Level::info, "connected", {{"session", session_}, {"cell", hello.cell}}});
 }
 
-void RobotHost::lose_server(const std::string& why) {
+void RobotHost::lose_server(std::string why) {
   server_.reset();
   brake_all();
   log_({LogLine::Level::warning, "the server is gone, the arms brake: " + why});

@@ -48,7 +48,7 @@ class RobotHost {
   [[nodiscard]] std::optional<HelloRefusal> objection(const Hello& hello) const;
   void listen_to_server();
   void obey(const ServerMessage& message);
-  void lose_server(const std::string& why);
+  void lose_server(std::string why);
   void brake_all();
   [[nodiscard]] HostedArm* find(const std::string& arm);
   [[nodiscard]] Duration clock() const;

@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+"""Runs jobs on arms in other processes, and breaks these processes and their connections.
+
+    test/server/remote_arms.py ARMLOOM [--only CASE ...] [--cuts 12] [--seed 1]
+
+Each robot of config/two_pandas_remote.json is an `armloom arm` process behind a proxy, which delays messages, cuts the
+connection, and reads all messages. In every case
+- no arm passes the authority that it has acknowledged,
+- an arm whose process or connection broke comes to rest, and does not move before it is resumed,
+- the other arm goes on.
+"""
+import argparse
+import json
+import pathlib
+import random
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import urllib.error
+import urllib.request
+
+from killed_server import API, HOME, ROOT, swing
+
+PATIENCE_S = 60.0
+PROGRAM = None
+
+
+def wait_for(holds, what):
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        found = holds()
+        if found:
+            return found
+        time.sleep(0.02)
+    raise AssertionError(f"waited in vain for {what}")
+
+
+class Proxy:
+    """Stands between the server and one robot, and checks that no report is beyond the authority it states."""
+
+    def __init__(self, place, target):
+        self.target, self.delay_s, self.cut_at, self.faults = str(target), 0.0, None, []
+        self.last = None  # report of the arm
+        self.moves, self.count, self.open = 0, 0, []
+        self.listening = socket.socket(socket.AF_UNIX)
+        self.listening.bind(str(place))
+        self.listening.listen()
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        while True:
+            server = self.listening.accept()[0]
+            robot = socket.socket(socket.AF_UNIX)
+            try:
+                robot.connect(self.target)
+            except OSError:
+                server.close()
+                continue
+            self.open = [server, robot]
+            for source, sink, hears in ((server, robot, self.hear_server), (robot, server, self.hear_robot)):
+                threading.Thread(target=self.carry, args=(source, sink, hears), daemon=True).start()
+
+    def carry(self, source, sink, hears):
+        queue, data = [], b""
+        source.settimeout(0.002)
+        try:
+            while True:
+                try:
+                    chunk = source.recv(1 << 20)
+                    if not chunk:
+                        break
+                    queue.append((time.monotonic() + self.delay_s, chunk))
+                except socket.timeout:
+                    pass
+                while queue and queue[0][0] <= time.monotonic():
+                    *lines, data = (data + queue.pop(0)[1]).split(b"\n")
+                    for line in lines:
+                        sink.sendall(line + b"\n")
+                        hears(json.loads(line))
+        except OSError:
+            pass
+        self.cut([source, sink])
+
+    @staticmethod
+    def cut(ends):
+        for end in ends:
+            try:
+                end.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+
+    def hear_server(self, message):
+        if message["type"] in ("heartbeat", "hello"):
+            return
+        self.moves += message["type"] == "follow"
+        self.count += 1
+        if self.count == self.cut_at:
+            self.cut_at = None
+            self.cut(self.open)
+
+    def hear_robot(self, message):
+        if message["type"] != "feedback":
+            return
+        self.last = message
+        if message["commanded_ns"] > message["authority_ns"] and message["phase"] != "fault":
+            self.faults.append(message)
+
+
+class Cell:
+    """The server, two robots and their proxies."""
+
+    def __init__(self, folder, start_arms=True):
+        self.folder = folder
+        text = (ROOT / "config/two_pandas_remote.json").read_text().replace('"../models', f'"{ROOT}/models')
+        text = text.replace("/tmp/armloom-", f"{folder}/")
+        # A busy machine is late, so the feedback timeout is long.
+        text = text.replace('"feedback_timeout_s": 0.2', '"feedback_timeout_s": 0.8')
+        self.file = folder / "cell.json"
+        self.file.write_text(text)
+        self.proxies = {arm: Proxy(folder / f"{arm}.sock", folder / f"{arm}-robot.sock") for arm in ("left", "right")}
+        self.log = open(folder / "log", "a", encoding="utf-8")
+        self.arms = {}
+        if start_arms:
+            for arm in self.proxies:
+                self.start_arm(arm)
+        self.server = subprocess.Popen([PROGRAM, "serve", "--cell", str(self.file), "--listen", "127.0.0.1:0",
+                                        "--data", str(folder / "data")], stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.port = int(self.server.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
+
+    def start_arm(self, arm):
+        self.arms[arm] = subprocess.Popen([PROGRAM, "arm", "--cell", str(self.file), "--robot", arm, "--listen",
+                                           f"unix:{self.folder}/{arm}-robot.sock"], stdout=subprocess.PIPE,
+                                          stderr=self.log, text=True)
+        self.arms[arm].stdout.readline()
+
+    def call(self, method, path, body=None):
+        request = urllib.request.Request(f"http://127.0.0.1:{self.port}{API}{path}", method=method,
+                                         data=None if body is None else json.dumps(body).encode(),
+                                         headers={"Content-Type": "application/json"})
+        try:
+            with urllib.request.urlopen(request, timeout=20) as answer:
+                return json.loads(answer.read() or b"null")
+        except urllib.error.HTTPError as error:
+            return json.loads(error.read() or b"null")
+
+    def submit(self, count, duration_s=1.5):
+        for i in range(count):
+            for arm in self.proxies:
+                answer = self.call("POST", "/jobs", swing(f"{arm}-{time.monotonic_ns()}", arm, duration_s, []))
+                assert "state" in answer, answer
+
+    def jobs(self, arm):
+        return [job for job in self.call("GET", "/jobs?limit=100")["jobs"] if job["arms"] == [arm]]
+
+    def arm(self, name):
+        return next(arm for arm in self.call("GET", "/arms")["arms"] if arm["name"] == name)
+
+    def await_up(self):
+        wait_for(lambda: all(self.arm(arm)["link"] == "up" for arm in self.proxies), "links that are up")
+
+    def await_motion(self, arm):
+        last = self.proxies[arm].last
+        wait_for(lambda: (now := self.proxies[arm].last) and now is not last and now["phase"] == "moving"
+                 and now["commanded_ns"] > 0, f"motion of {arm}")
+
+    def await_end(self, arm):
+        wait_for(lambda: all(job["state"] in ("succeeded", "failed", "canceled") for job in self.jobs(arm)), f"the end of {arm}")
+
+    def await_stop(self, arm):
+        wait_for(lambda: self.arm(arm)["state"] == "stopped", f"a stop of {arm}")
+
+    def stays_until_resumed(self, arm):
+        """The arm's link is up again, and its arm must rest until it is resumed."""
+        wait_for(lambda: self.arm(arm)["link"] == "up", f"the link of {arm}")
+        wait_for(lambda: self.proxies[arm].last["at_rest"], f"a rest of {arm}")
+        place, moves = self.proxies[arm].last["positions"], self.proxies[arm].moves
+        sequence = self.proxies[arm].last["sequence"]
+        wait_for(lambda: self.proxies[arm].last["sequence"] > sequence + 50, "reports")
+        assert self.proxies[arm].last["positions"] == place, f"{arm} moved before it was resumed"
+        assert self.proxies[arm].moves == moves, f"{arm} was sent a motion before it was resumed"
+        waits = [job for job in self.jobs(arm) if job["state"] not in ("succeeded", "failed", "canceled")]
+        assert all(job["waits_on"] for job in waits), f"a job does not say what it waits for: {waits}"
+
+    def resume(self, arm):
+        self.call("POST", f"/arms/{arm}/resume")
+
+    def close(self):
+        for process in [self.server, *self.arms.values()]:
+            process.send_signal(signal.SIGCONT)
+            process.terminate()
+        for process in [self.server, *self.arms.values()]:
+            assert process.wait(20) == 0, f"ended with {process.returncode}"
+        for arm, proxy in self.proxies.items():
+            assert not proxy.faults, f"{arm} passed its authority: {proxy.faults[0]}"
+
+
+# ---- Cases ----
+
+def case_runs_jobs(cell, options):
+    cell.await_up()
+    cell.submit(3)
+    for arm in cell.proxies:
+        cell.await_end(arm)
+        assert all(job["state"] == "succeeded" for job in cell.jobs(arm)), cell.jobs(arm)
+
+
+def case_runs_jobs_over_a_slow_line(cell, options):
+    cell.await_up()
+    for delay_s in (0.01, 0.1, 0.25):  # each way
+        for proxy in cell.proxies.values():
+            proxy.delay_s = delay_s
+        cell.submit(1)
+        for arm in cell.proxies:
+            wait_for(lambda arm=arm: cell.arm(arm)["state"] == "stopped" or
+                     all(job["state"] == "succeeded" for job in cell.jobs(arm)), f"an end of {arm}")
+            if cell.arm(arm)["state"] == "stopped":  # the change of the delay itself
+                cell.stays_until_resumed(arm)
+                cell.resume(arm)
+                cell.await_end(arm)
+
+
+def case_waits_for_its_arms(cell, options):
+    wait_for(lambda: cell.arm("left")["link"] == "connecting", "a link that connects")
+    assert cell.arm("left")["link_detail"], "the arm does not say why it waits"
+    cell.submit(1)
+    job = wait_for(lambda: next((job for job in cell.jobs("left") if job["waits_on"]), None), "a waiting job")
+    assert job["state"] in ("queued", "backlogged"), job
+    for arm in cell.proxies:
+        cell.start_arm(arm)
+    cell.await_up()
+    for arm in cell.proxies:
+        if cell.arm(arm)["state"] == "stopped":
+            cell.resume(arm)
+        cell.await_end(arm)
+
+
+def other_goes_on(cell, breaks, mends):
+    """Breaks the left arm in motion; the right one must finish its jobs."""
+    cell.await_up()
+    cell.submit(2, 2.0)
+    cell.await_motion("left")
+    breaks()
+    cell.await_stop("left")
+    mends()
+    cell.stays_until_resumed("left")
+    for job in cell.jobs("right"):
+        assert job["state"] != "failed", job
+    cell.resume("left")
+    for arm in ("right", "left"):
+        cell.await_end(arm)
+    assert all(job["state"] == "succeeded" for job in cell.jobs("right")), cell.jobs("right")
+
+
+def case_process_is_frozen(cell, options):
+    other_goes_on(cell, lambda: cell.arms["left"].send_signal(signal.SIGSTOP),
+                  lambda: cell.arms["left"].send_signal(signal.SIGCONT))
+
+
+def case_process_is_killed(cell, options):
+    def kill():
+        cell.arms["left"].kill()
+        cell.arms["left"].wait()
+
+    other_goes_on(cell, kill, lambda: cell.start_arm("left"))
+
+
+def case_connection_is_cut(cell, options):
+    other_goes_on(cell, lambda: Proxy.cut(cell.proxies["left"].open), lambda: None)
+
+
+def case_connection_is_cut_at_each_message(cell, options):
+    cell.await_up()
+    rng, reached = random.Random(options.seed), 0
+    for number in range(1, options.cuts + 1):
+        arm = rng.choice(list(cell.proxies))
+        proxy = cell.proxies[arm]
+        proxy.count, proxy.cut_at = 0, number
+        cell.submit(1)
+        wait_for(lambda: proxy.cut_at is None or all(
+            job["state"] in ("succeeded", "failed") for job in cell.jobs(arm)), f"message {number}")
+        reached += proxy.cut_at is None
+        if proxy.cut_at is None:
+            wait_for(lambda: cell.arm(arm)["link"] == "up", "the next connection")
+            if cell.arm(arm)["state"] == "stopped":
+                cell.stays_until_resumed(arm)
+        proxy.cut_at = None
+        for name in cell.proxies:
+            if cell.arm(name)["state"] == "stopped":
+                cell.resume(name)
+            cell.await_end(name)
+    assert reached >= 2, f"only {reached} cuts came where they were to"
+
+
+CASES = {name[5:]: case for name, case in list(globals().items()) if name.startswith("case_")}
+
+
+def main():
+    global PROGRAM
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--only", nargs="+", choices=list(CASES), default=list(CASES))
+    parser.add_argument("--cuts", type=int, default=12)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    PROGRAM = str(options.program.resolve())
+    for name in options.only:
+        began = time.monotonic()
+        with tempfile.TemporaryDirectory(prefix="armloom-remote-") as folder:
+            cell = Cell(pathlib.Path(folder), start_arms="waits" not in name)
+            try:
+                CASES[name](cell, options)
+                cell.close()
+            except BaseException:
+                for process in [cell.server, *cell.arms.values()]:
+                    process.kill()
+                print((pathlib.Path(folder) / "log").read_text(), file=sys.stderr)
+                raise
+        print(f"{name}: passed in {time.monotonic() - began:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()
