@@ -161,6 +161,7 @@ class Server:
         return report
 
     def swing(self, slower=1.0, **how):
+        self.until(lambda report: report["phase"] not in ("waiting", *MOVING), "the end of an earlier motion")
         self.motion = Motion(self.arm["joints"], self.report["positions"], slower)
         self.command(self.motion.follow(**how))
         return self.motion
@@ -320,7 +321,7 @@ def check_switches_the_drives_off(new):
 
 def check_rejects_what_it_cannot_do(new):
     server = new()
-    here = server.report["positions"]
+    here = server.phase("idle")["positions"]
     away = Motion(server.arm["joints"], [here[0] + 0.5, *here[1:]])
     report = server.command(away.follow(), "rejected")
     expect(report["phase"] == "fault" and report["detail"], "a rejected motion is no fault, or has no reason")

@@ -124,6 +124,8 @@ FormatPtr<Heartbeat> heartbeat_format() {
   });
 }
 
+}  // namespace
+
 FormatPtr<FeedbackMessage> feedback_format() {
   using Feedback = FeedbackMessage;
   return object<Feedback>({
@@ -144,6 +146,8 @@ FormatPtr<FeedbackMessage> feedback_format() {
       always("at_rest", &Feedback::at_rest, flag()),
   });
 }
+
+namespace {
 
 // The messages of one side, in the order of its variant.
 template <class... Messages>

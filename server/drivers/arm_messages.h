@@ -10,6 +10,7 @@
 #include "core/arm/arm_controller.h"
 #include "core/base/problem.h"
 #include "core/model/cell.h"
+#include "server/codec/format.h"
 
 namespace armloom {
 
@@ -123,6 +124,9 @@ using ControllerMessage = std::variant<Welcome, HelloRefusal, Heartbeat, Feedbac
 // Problems: the pointers lead into the line.
 [[nodiscard]] Result<ServerMessage> read_server_line(std::string_view line);
 [[nodiscard]] Result<ControllerMessage> read_controller_line(std::string_view line);
+
+// Describes a FeedbackMessage, with "type".
+[[nodiscard]] FormatPtr<FeedbackMessage> feedback_format();
 
 [[nodiscard]] JointTerms terms_of(const Joint& joint);
 // Returns the hello for a robot of the cell.

@@ -14,6 +14,7 @@
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
 #include "server/codec/whole_format.h"
+#include "server/drivers/arm_messages.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/scene.h"
@@ -133,6 +134,25 @@ PartPtr<Alert> alert_part() {
   });
 }
 
+PartPtr<In::Reported> report_part() {
+  return member<In::Reported>(
+      {"report", "", Need::required, {}}, feedback_format(),
+      [](const In::Reported& in) {
+        return std::optional<FeedbackMessage>(message_of(in.feedback, in.arm));
+      },
+      [](In::Reported& in, const FeedbackMessage& message) {
+        in = {message.arm, feedback_of(message)};
+      });
+}
+
+PartPtr<ArmConnection> connection_part() {
+  return parts<ArmConnection>({
+      always("is_up", &ArmConnection::is_up, flag()),
+      always("detail", &ArmConnection::detail, text()),
+      always("number", &ArmConnection::number, whole()),
+  });
+}
+
 // Name and fields of an input.
 template <class Input>
 struct Kind {
@@ -190,6 +210,10 @@ KindOfEach<decltype(In::what)>::Table kinds() {
        {number_part("job", &In::Planned::job),
         always("question", &In::Planned::question, whole())}},
       {"start_written", {number_part("job", &In::StartWritten::job)}},
+      {"reported", {report_part()}},
+      {"connected",
+       {always("arm", &In::Connected::arm, text()),
+        inlined(&In::Connected::connection, connection_part())}},
   };
 }
 

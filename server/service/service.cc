@@ -21,6 +21,7 @@
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
 #include "server/replay/input_file.h"
+#include "server/replay/reported_arms.h"
 
 namespace armloom {
 
@@ -70,8 +71,6 @@ class Service::Impl {
         cell, stream_, *clock_, hub_, states_, recording_.get(), keeper_.get(), *alerts_, post,
         post_urgent, options_.log, [this](Alert alert) { tell(std::move(alert)); }, *metrics_});
     ExecutiveOptions executive_options{.policy = options_.policy};
-    executive_options.controllers = remote_controllers(stream_);
-    executive_options.controllers.merge(simulated_controllers());
     std::optional<Restart> restart;
     if (keeper_) {
       keeper_->serve(*clock_, post);
@@ -82,6 +81,10 @@ class Service::Impl {
       executive_options.first_job = JobId{keeper_->store().leftover().last_number + 1};
     }
     if (auto problems = log_inputs(cell, executive_options, post)) return problems;
+    ControllerTypes remote = remote_controllers(stream_);
+    if (inputs_) remote = recorded(std::move(remote), *inputs_);
+    remote.merge(simulated_controllers());
+    executive_options.controllers = std::move(remote);
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());

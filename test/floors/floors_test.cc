@@ -62,8 +62,9 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
     {"core/model", {"xml", "urdf", "srdf", "cell"}},
     {"core/collision", {"scene", "filter", "state", "diagram", "check"}},
     {"server",
-     {"access", "store", "codec", "metrics", "log", "http", "messages", "control", "recording",
-      "import", "replay", "comparison", "durable", "hub", "api", "service", "command"}},
+     {"access", "store", "codec", "metrics", "log", "drivers", "arm_process", "http", "messages",
+      "control", "recording", "import", "replay", "comparison", "durable", "hub", "api", "service",
+      "command"}},
 };
 
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {

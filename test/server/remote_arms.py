@@ -7,7 +7,8 @@ Each robot of config/two_pandas_remote.json is an `armloom arm` process behind a
 connection, and reads all messages. In every case
 - no arm passes the authority that it has acknowledged,
 - an arm whose process or connection broke comes to rest, and does not move before it is resumed,
-- the other arm goes on.
+- the other arm goes on,
+- `armloom replay` reproduces the session from its log.
 """
 import argparse
 import json
@@ -45,7 +46,8 @@ class Proxy:
     def __init__(self, place, target):
         self.target, self.delay_s, self.cut_at, self.faults = str(target), 0.0, None, []
         self.last = None  # report of the arm
-        self.moves, self.count, self.open = 0, 0, []
+        self.moves = self.count = self.connections = 0
+        self.open = []
         self.listening = socket.socket(socket.AF_UNIX)
         self.listening.bind(str(place))
         self.listening.listen()
@@ -60,7 +62,7 @@ class Proxy:
             except OSError:
                 server.close()
                 continue
-            self.open = [server, robot]
+            self.open, self.connections = [server, robot], self.connections + 1
             for source, sink, hears in ((server, robot, self.hear_server), (robot, server, self.hear_robot)):
                 threading.Thread(target=self.carry, args=(source, sink, hears), daemon=True).start()
 
@@ -171,7 +173,10 @@ class Cell:
         wait_for(lambda: all(job["state"] in ("succeeded", "failed", "canceled") for job in self.jobs(arm)), f"the end of {arm}")
 
     def await_stop(self, arm):
-        wait_for(lambda: self.arm(arm)["state"] == "stopped", f"a stop of {arm}")
+        wait_for(lambda: self.is_stopped(arm) or self.arm(arm)["link"] == "lost", f"a stop of {arm}")
+
+    def is_stopped(self, arm):
+        return self.arm(arm)["state"] in ("stopped", "fault")
 
     def stays_until_resumed(self, arm):
         """The arm's link is up again, and its arm must rest until it is resumed."""
@@ -194,6 +199,8 @@ class Cell:
             process.terminate()
         for process in [self.server, *self.arms.values()]:
             assert process.wait(20) == 0, f"ended with {process.returncode}"
+        replayed = subprocess.run([PROGRAM, "replay", "--data", str(self.folder / "data")], capture_output=True, text=True)
+        assert replayed.returncode == 0, f"the session does not replay: {replayed.stdout}{replayed.stderr}"
         for arm, proxy in self.proxies.items():
             assert not proxy.faults, f"{arm} passed its authority: {proxy.faults[0]}"
 
@@ -215,9 +222,9 @@ def case_runs_jobs_over_a_slow_line(cell, options):
             proxy.delay_s = delay_s
         cell.submit(1)
         for arm in cell.proxies:
-            wait_for(lambda arm=arm: cell.arm(arm)["state"] == "stopped" or
+            wait_for(lambda arm=arm: cell.is_stopped(arm) or
                      all(job["state"] == "succeeded" for job in cell.jobs(arm)), f"an end of {arm}")
-            if cell.arm(arm)["state"] == "stopped":  # the change of the delay itself
+            if cell.is_stopped(arm):  # the change of the delay itself
                 cell.stays_until_resumed(arm)
                 cell.resume(arm)
                 cell.await_end(arm)
@@ -233,9 +240,48 @@ def case_waits_for_its_arms(cell, options):
         cell.start_arm(arm)
     cell.await_up()
     for arm in cell.proxies:
-        if cell.arm(arm)["state"] == "stopped":
+        if cell.is_stopped(arm):
             cell.resume(arm)
         cell.await_end(arm)
+
+
+def case_says_why_a_robot_does_not_fit(cell, options):
+    """Answers the server's hello for the left robot with other lines; no arm is commanded."""
+    joints = [f"left_panda_joint{i}" for i in range(1, 8)] + ["left_panda_finger_joint1"]
+    fits = {"type": "welcome", "protocol": 1, "robot": "left", "arms": [{"name": "left", "joints": joints}],
+            "reaction_s": 0.001, "feedback_period_s": 0.004}
+    report = {"type": "feedback", "arm": "left", "sequence": 1, "time_ns": 1, "acknowledged": 0, "rejected": 0,
+              "phase": "idle", "commanded_ns": 0, "measured_ns": 0, "authority_ns": 0, "positions": [0.0],
+              "drives_on": True, "at_rest": True}
+    answers = [({**fits, "robot": "right"}, 'robot "right" answers at unix:'),
+               ({**fits, "protocol": 2}, "speaks version 2 of the protocol, this server version 1"),
+               ({**fits, "feedback_period_s": 0.5}, "promises a feedback_period_s of 0.5"),
+               ({**fits, "arms": [{"name": "left", "joints": joints[1:]}]}, "the joints of arm"),
+               ({**fits, "arms": []}, "has 0 arms"),
+               ({**fits, "speed": 1}, "/speed: "),
+               ({"type": "error", "pointer": "/session", "detail": "in use"}, "refused the connection: /session: in use"),
+               (report, "before its welcome"),
+               ([fits, report], 'reports 1 positions of arm "left", which has 8 joints'),
+               ("nonsense", "sent a bad message")]
+    answer, said = answers[0]
+    listening = socket.socket(socket.AF_UNIX)
+    listening.bind(cell.proxies["left"].target)
+    listening.listen()
+
+    def serve():
+        while True:
+            peer = listening.accept()[0]
+            peer.recv(1 << 20)
+            for line in answer if isinstance(answer, list) else [answer]:
+                peer.sendall((line if isinstance(line, str) else json.dumps(line)).encode() + b"\n")
+
+    threading.Thread(target=serve, daemon=True).start()
+    cell.submit(1)
+    for answer, said in answers:
+        wait_for(lambda: said in (cell.arm("left")["link_detail"] or ""), said)
+        assert cell.arm("left")["state"] == "stopped" and cell.proxies["left"].moves == 0
+    wait_for(lambda: "no answer from" in cell.arm("right")["link_detail"] or "closed" in cell.arm("right")["link_detail"],
+             "a reason for the robot that is not there")
 
 
 def other_goes_on(cell, breaks, mends):
@@ -278,18 +324,18 @@ def case_connection_is_cut_at_each_message(cell, options):
     for number in range(1, options.cuts + 1):
         arm = rng.choice(list(cell.proxies))
         proxy = cell.proxies[arm]
-        proxy.count, proxy.cut_at = 0, number
+        proxy.count, proxy.cut_at, connections = 0, number, proxy.connections
         cell.submit(1)
         wait_for(lambda: proxy.cut_at is None or all(
             job["state"] in ("succeeded", "failed") for job in cell.jobs(arm)), f"message {number}")
         reached += proxy.cut_at is None
         if proxy.cut_at is None:
-            wait_for(lambda: cell.arm(arm)["link"] == "up", "the next connection")
-            if cell.arm(arm)["state"] == "stopped":
-                cell.stays_until_resumed(arm)
+            wait_for(lambda: proxy.connections > connections, "the next connection")
+            wait_for(lambda: cell.is_stopped(arm), f"a stop of {arm}")
+            cell.stays_until_resumed(arm)
         proxy.cut_at = None
         for name in cell.proxies:
-            if cell.arm(name)["state"] == "stopped":
+            if cell.is_stopped(name):
                 cell.resume(name)
             cell.await_end(name)
     assert reached >= 2, f"only {reached} cuts came where they were to"
@@ -310,7 +356,7 @@ def main():
     for name in options.only:
         began = time.monotonic()
         with tempfile.TemporaryDirectory(prefix="armloom-remote-") as folder:
-            cell = Cell(pathlib.Path(folder), start_arms="waits" not in name)
+            cell = Cell(pathlib.Path(folder), start_arms=name not in ("waits_for_its_arms", "says_why_a_robot_does_not_fit"))
             try:
                 CASES[name](cell, options)
                 cell.close()
