@@ -83,7 +83,7 @@ class Proxy:
                     for line in lines:
                         sink.sendall(line + b"\n")
                         hears(json.loads(line))
-        except OSError:
+        except (OSError, ValueError):
             pass
         self.cut([source, sink])
 
@@ -280,8 +280,24 @@ def case_says_why_a_robot_does_not_fit(cell, options):
     for answer, said in answers:
         wait_for(lambda: said in (cell.arm("left")["link_detail"] or ""), said)
         assert cell.arm("left")["state"] == "stopped" and cell.proxies["left"].moves == 0
-    wait_for(lambda: "no answer from" in cell.arm("right")["link_detail"] or "closed" in cell.arm("right")["link_detail"],
-             "a reason for the robot that is not there")
+    wait_for(lambda: "right.sock: " in cell.arm("right")["link_detail"], "a reason for the robot that is not there")
+
+
+def case_refuses_bad_input(cell, options):
+    cell.await_up()
+    arm = ["arm", "--cell", str(cell.file), "--robot", "left", "--listen"]
+    for arguments, said in [
+            (["serve", "--cell", str(cell.file), "--listen", "127.0.0.1:0", "--speed", "2"], "--speed: robot left has a remote"),
+            ([*arm, "left.sock"], "--listen: not an endpoint: expected unix:PATH or tcp:HOST:PORT"),
+            ([*arm, f"unix:{cell.folder}/left-robot.sock"], "Address already in use"),
+            ([*arm, f"unix:{cell.folder}/none/left.sock"], "No such file or directory"),
+            (["arm", "--cell", str(cell.file), "--robot", "middle", "--listen", "tcp:127.0.0.1:0"],
+             "--robot: the cell has no such robot; it has: left, right (found \"middle\")"),
+            (["arm", "--cell", str(cell.file), "--robot", "left"], "--listen is required")]:
+        ended = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60)
+        assert ended.returncode == 2 and said in ended.stderr + ended.stdout, f"{arguments}: {ended}"
+    answer = cell.call("PUT", "/sim/speed", {"speed": 2.0})
+    assert "real time" in json.dumps(answer), answer
 
 
 def other_goes_on(cell, breaks, mends):
