@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/policies/policy_names.h", "core/scheduler", "core/monitor", "core/guard", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
-      "core/planning", "core/executive", "core/audit"}},
+      "core/planning", "core/arm", "core/executive", "core/audit"}},
 };
 
 // Modules of a folder, lowest first: each includes only from itself and lower modules.

@@ -14,6 +14,7 @@ import argparse
 import json
 import pathlib
 import random
+import select
 import signal
 import socket
 import subprocess
@@ -27,6 +28,7 @@ import urllib.request
 from killed_server import API, HOME, ROOT, swing
 
 PATIENCE_S = 60.0
+ENDED = ("succeeded", "failed", "canceled", "interrupted")
 PROGRAM = None
 
 
@@ -67,25 +69,38 @@ class Proxy:
                 threading.Thread(target=self.carry, args=(source, sink, hears), daemon=True).start()
 
     def carry(self, source, sink, hears):
-        queue, data = [], b""
-        source.settimeout(0.002)
+        """Passes messages on after the delay, even while the other end does not read."""
+        waiting, data, unsent = [], b"", b""
         try:
             while True:
-                try:
+                if select.select([source], [], [], 0.002)[0]:
                     chunk = source.recv(1 << 20)
                     if not chunk:
                         break
-                    queue.append((time.monotonic() + self.delay_s, chunk))
-                except socket.timeout:
-                    pass
-                while queue and queue[0][0] <= time.monotonic():
-                    *lines, data = (data + queue.pop(0)[1]).split(b"\n")
-                    for line in lines:
-                        sink.sendall(line + b"\n")
+                    *lines, data = (data + chunk).split(b"\n")
+                    waiting += [(time.monotonic() + self.delay_s, line) for line in lines]
+                    if hears == self.hear_robot:
+                        for line in lines:
+                            hears(json.loads(line))
+                while waiting and waiting[0][0] <= time.monotonic():
+                    line = waiting.pop(0)[1]
+                    unsent += line + b"\n"
+                    unsent = self.send(sink, unsent)
+                    if hears == self.hear_server:
                         hears(json.loads(line))
+                unsent = self.send(sink, unsent)
         except (OSError, ValueError):
             pass
+        self.send(sink, unsent)
         self.cut([source, sink])
+
+    @staticmethod
+    def send(sink, data):
+        """Returns what could not be sent yet."""
+        try:
+            return data[sink.send(data, socket.MSG_DONTWAIT):] if data else data
+        except BlockingIOError:
+            return data
 
     @staticmethod
     def cut(ends):
@@ -129,8 +144,11 @@ class Cell:
         if start_arms:
             for arm in self.proxies:
                 self.start_arm(arm)
-        self.server = subprocess.Popen([PROGRAM, "serve", "--cell", str(self.file), "--listen", "127.0.0.1:0",
-                                        "--data", str(folder / "data")], stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.start_server()
+
+    def start_server(self):
+        self.server = subprocess.Popen([PROGRAM, "serve", "--cell", str(self.file), "--listen", "127.0.0.1:0", "--data",
+                                        str(self.folder / "data")], stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.port = int(self.server.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
 
     def start_arm(self, arm):
@@ -170,7 +188,7 @@ class Cell:
                  and now["commanded_ns"] > 0, f"motion of {arm}")
 
     def await_end(self, arm):
-        wait_for(lambda: all(job["state"] in ("succeeded", "failed", "canceled") for job in self.jobs(arm)), f"the end of {arm}")
+        wait_for(lambda: all(job["state"] in ENDED for job in self.jobs(arm)), f"the end of {arm}")
 
     def await_stop(self, arm):
         wait_for(lambda: self.is_stopped(arm) or self.arm(arm)["link"] == "lost", f"a stop of {arm}")
@@ -187,7 +205,7 @@ class Cell:
         wait_for(lambda: self.proxies[arm].last["sequence"] > sequence + 50, "reports")
         assert self.proxies[arm].last["positions"] == place, f"{arm} moved before it was resumed"
         assert self.proxies[arm].moves == moves, f"{arm} was sent a motion before it was resumed"
-        waits = [job for job in self.jobs(arm) if job["state"] not in ("succeeded", "failed", "canceled")]
+        waits = [job for job in self.jobs(arm) if job["state"] not in ENDED]
         assert all(job["waits_on"] for job in waits), f"a job does not say what it waits for: {waits}"
 
     def resume(self, arm):
@@ -343,7 +361,7 @@ def case_connection_is_cut_at_each_message(cell, options):
         proxy.count, proxy.cut_at, connections = 0, number, proxy.connections
         cell.submit(1)
         wait_for(lambda: proxy.cut_at is None or all(
-            job["state"] in ("succeeded", "failed") for job in cell.jobs(arm)), f"message {number}")
+            job["state"] in ENDED for job in cell.jobs(arm)), f"message {number}")
         reached += proxy.cut_at is None
         if proxy.cut_at is None:
             wait_for(lambda: proxy.connections > connections, "the next connection")
@@ -355,6 +373,37 @@ def case_connection_is_cut_at_each_message(cell, options):
                 cell.resume(name)
             cell.await_end(name)
     assert reached >= 2, f"only {reached} cuts came where they were to"
+
+
+def case_server_is_killed(cell, options):
+    cell.await_up()
+    cell.submit(2, 3.0)
+    for arm in cell.proxies:
+        cell.await_motion(arm)
+    cell.server.kill()
+    cell.server.wait()
+    cell.start_server()
+    cell.await_up()
+    for arm, proxy in cell.proxies.items():
+        wait_for(lambda proxy=proxy: proxy.last["phase"] == "idle", f"the end of the motion of another session of {arm}")
+        assert cell.is_stopped(arm), f"{arm} may move before it is resumed"
+        cell.stays_until_resumed(arm)
+    cell.call("POST", "/resume")
+    wait_for(lambda: all(job["state"] in ENDED for arm in cell.proxies for job in cell.jobs(arm)), "the end of all jobs")
+
+
+def case_server_is_frozen(cell, options):
+    cell.await_up()
+    cell.submit(1, 3.0)
+    for arm in cell.proxies:
+        cell.await_motion(arm)
+    cell.server.send_signal(signal.SIGSTOP)
+    for arm, proxy in cell.proxies.items():
+        wait_for(lambda proxy=proxy: proxy.last["phase"] == "stopped", f"a brake of {arm}")
+        assert proxy.last["commanded_ns"] < 3_000_000_000, "did not brake"
+    cell.server.send_signal(signal.SIGCONT)
+    for arm in cell.proxies:
+        wait_for(lambda arm=arm: cell.arm(arm)["link"] == "up", f"the link of {arm}")
 
 
 CASES = {name[5:]: case for name, case in list(globals().items()) if name.startswith("case_")}
