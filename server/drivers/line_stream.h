@@ -33,7 +33,7 @@ class Descriptor {
 // Waits at most two seconds, or until a stop is requested. (The lookup of a host name may block
 // longer.)
 [[nodiscard]] Result<Descriptor> connect_to(const Endpoint& endpoint, const std::stop_token& stop);
-// Replaces the file of a Unix socket on which nobody listens any more.
+// Replaces the file of a Unix socket whose process has ended.
 [[nodiscard]] Result<Descriptor> listen_on(const Endpoint& endpoint);
 // Returns the endpoint with the port that the system chose for port 0.
 [[nodiscard]] Endpoint bound_endpoint(const Endpoint& endpoint, const Descriptor& listening);

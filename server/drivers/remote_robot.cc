@@ -97,7 +97,7 @@ void RemoteRobot::cut(std::chrono::milliseconds pause) {
 void RemoteRobot::push(std::size_t arm, Event event) {
   const std::scoped_lock lock(mutex_);
   std::deque<Event>& inbox = inboxes_[arm];
-  // What the previous connection said no longer counts.
+  // A change of the connection makes earlier reports obsolete.
   if (std::holds_alternative<ArmConnection>(event)) inbox.clear();
   if (inbox.size() >= kInboxMax) {
     const auto oldest = std::ranges::find_if(
@@ -307,7 +307,7 @@ void RemoteRobot::send_waiting(LineStream& stream) {
     stream.send(
         line_of(message_of(one.command, *cell_, cell_->arm(robot_.arms[one.arm]).name, start_at)));
   }
-  // A lost command would leave a gap in the numbers: a new connection begins anew.
+  // A lost command leaves a gap in the numbers, so the connection is made again.
   if (overflowed) cut(milliseconds(0));
 }
 

@@ -21,7 +21,7 @@
 namespace armloom {
 
 // The connection to the process that controls one robot (PROTOCOL.md). A thread of its own connects
-// and reconnects for ever. The public functions are thread-safe and never block.
+// and reconnects until it succeeds. The public functions are thread-safe and never block.
 class RemoteRobot {
  public:
   using Wall = std::chrono::steady_clock;
@@ -81,7 +81,7 @@ class RemoteRobot {
   std::deque<Outgoing> outbox_;
   bool overflowed_ = false;
 
-  // Of the thread:
+  // Used by the thread only:
   std::uint64_t connection_ = 0;
   bool is_up_ = false;
   bool is_welcome_ = false;
