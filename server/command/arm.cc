@@ -2,12 +2,16 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "core/arm/simulated_arm.h"
 #include "core/trajectory/set_joints.h"
+#include "server/arm_process/physics_robot.h"
 #include "server/arm_process/robot_host.h"
 #include "server/codec/stream_id.h"
 #include "server/command/command.h"
@@ -46,10 +50,25 @@ int refuse_option(const char* option, Problem problem) {
   return kExitBadInput;
 }
 
+// Parses "panda_hand=3.5"; nullopt if empty.
+Result<std::optional<Payload>> payload_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t equals = text.rfind('=');
+  Payload payload{.link = text.substr(0, equals)};
+  const char* end = text.data() + text.size();
+  if (equals != text.npos) {
+    const auto [stop, ec] = std::from_chars(text.data() + equals + 1, end, payload.mass_kg);
+    if (ec == std::errc{} && stop == end && payload.mass_kg > 0.0) return payload;
+  }
+  return failure(Problem{ProblemKind::invalid, "bad-payload", "",
+                         "expected LINK=KG with a positive mass, for example left_panda_hand=3",
+                         text});
+}
+
 Log log_to_stderr() {
   const auto logger = spdlog::stderr_color_mt("arm");
   return [logger](const LogLine& line) {
-    logger->log(line.level == LogLine::Level::warning ? spdlog::level::warn : spdlog::level::info,
+    logger->log(line.level == LogLine::Level::info ? spdlog::level::info : spdlog::level::warn,
                 "{}", text_of(line));
   };
 }
@@ -75,8 +94,18 @@ int run_arm(const ArmOptions& options) {
   const auto endpoint = parse_endpoint(options.listen);
   if (!endpoint) return refuse_option("--listen", endpoint.error().front());
   const RobotId id{static_cast<std::uint32_t>(robot - cell->robots.begin())};
-  auto host = RobotHost::listen(cell, id, *endpoint, controllers_of(cell, *robot, options.seed),
-                                log_to_stderr());
+  const Log log = log_to_stderr();
+  std::vector<std::unique_ptr<ArmController>> controllers;
+  if (options.physics) {
+    const auto payload = payload_of(options.payload);
+    if (!payload) return refuse_option("--payload", payload.error().front());
+    const auto simulated = PhysicsRobot::create(cell, id, *payload, log);
+    if (!simulated) return refuse(options.cell_file, simulated.error());
+    controllers = PhysicsRobot::controllers(*simulated);
+  } else {
+    controllers = controllers_of(cell, *robot, options.seed);
+  }
+  auto host = RobotHost::listen(cell, id, *endpoint, std::move(controllers), log);
   if (!host) return refuse_option("--listen", host.error().front());
   warn_of_access((*host)->endpoint());
   const auto end = [](int) { signaled = 1; };

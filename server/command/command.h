@@ -53,6 +53,8 @@ struct ArmOptions {
   std::string cell_file;
   std::string robot;
   std::string listen;      // see parse_endpoint()
+  bool physics = false;    // masses, drives and contacts (server/physics)
+  std::string payload;     // LINK=KG, with physics
   bool hello = false;      // prints the server's hello instead, for tests of drivers
   std::uint64_t seed = 1;  // of the noise
 };

@@ -215,6 +215,12 @@ Command arm_command(CLI::App& app) {
       ->add_flag("--hello", options->hello,
                  "print the server's first message to this robot, for tests of a driver")
       ->excludes(listen);
+  CLI::Option* physics = command->add_flag("--physics", options->physics,
+                                           "simulate masses, drives, brakes and contacts (MuJoCo)");
+  command
+      ->add_option("--payload", options->payload,
+                   "with --physics: LINK=KG, a mass at a link that the drives do not know")
+      ->needs(physics);
   add_seed(*command, options->seed);
   command->final_callback([options] {
     if (options->listen.empty() && !options->hello) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the conformance suite for drivers (server/arm_process/conformance.py) on one driver.
 
-    test/server/driver_conforms.py ARMLOOM armloom|python
+    test/server/driver_conforms.py ARMLOOM armloom|physics|python
 """
 import json
 import pathlib
@@ -23,6 +23,7 @@ def main():
         # A busy machine is late, so the timeout is long.
         (pathlib.Path(folder) / "hello.json").write_text(json.dumps({**json.loads(hello), "timeout_s": 0.5}))
         command = {"armloom": [program, "arm", "--cell", str(CELL), "--robot", "right", "--listen", endpoint],
+                   "physics": [program, "arm", "--cell", str(CELL), "--robot", "right", "--listen", endpoint, "--physics"],
                    "python": [sys.executable, str(ROOT / "server/arm_process/example_driver.py"), endpoint,
                               json.dumps({"right": HOME + [0.0]})]}[driver]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:

@@ -83,6 +83,7 @@ class Proxy:
                 if select.select([source], [], [], 0.002)[0]:
                     chunk = source.recv(1 << 20)
                     if not chunk:
+                        self.send(sink, unsent)
                         break
                     *lines, data = (data + chunk).split(b"\n")
                     waiting += [(time.monotonic() + self.delay_s, line) for line in lines]
@@ -98,7 +99,6 @@ class Proxy:
                 unsent = self.send(sink, unsent)
         except OSError:
             pass
-        self.send(sink, unsent)
         self.cut([source, sink])
 
     @staticmethod
