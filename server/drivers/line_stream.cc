@@ -164,11 +164,13 @@ void LineStream::receive() {
 
 std::optional<std::string> LineStream::next_line() {
   const std::size_t at = in_.find('\n', std::max(taken_, searched_));
-  if (at == in_.npos) {
+  const bool is_complete = at != in_.npos;
+  if ((is_complete ? at : in_.size()) - taken_ > line_max_) {
+    fail("a line is longer than " + std::to_string(line_max_) + " bytes");
+    return std::nullopt;
+  }
+  if (!is_complete) {
     searched_ = in_.size();
-    if (in_.size() - taken_ > line_max_) {
-      fail("a line is longer than " + std::to_string(line_max_) + " bytes");
-    }
     return std::nullopt;
   }
   std::string line = in_.substr(taken_, at - taken_);
