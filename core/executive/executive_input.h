@@ -12,8 +12,8 @@ namespace armloom {
 
 // An external input that changes an executive, as recorded by InputLog. The cell, the options, the
 // ticks and these inputs determine everything that the executive does. Arms in this process are
-// simulated from a seed. The content of verdicts and plans follows from their questions, so only the times of their
-// arrival are inputs.
+// simulated from a seed. The content of verdicts and plans follows from their questions, so only
+// the times of their arrival are inputs.
 struct ExecutiveInput {
   // A job as requested. Everything that is not here is read from `body`.
   struct AskedJob {
