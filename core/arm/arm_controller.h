@@ -93,6 +93,26 @@ struct ArmFeedback {
   bool settled = false;
 };
 
+[[nodiscard]] constexpr const char* to_string(ArmFeedback::Phase phase) {
+  switch (phase) {
+    case ArmFeedback::Phase::idle:
+      return "idle";
+    case ArmFeedback::Phase::waiting:
+      return "waiting";
+    case ArmFeedback::Phase::moving:
+      return "moving";
+    case ArmFeedback::Phase::braking:
+      return "braking";
+    case ArmFeedback::Phase::stopped:
+      return "stopped";
+    case ArmFeedback::Phase::finished:
+      return "finished";
+    case ArmFeedback::Phase::fault:
+      return "fault";
+  }
+  return nullptr;
+}
+
 // State of the connection to a controller.
 struct ArmConnection {
   bool is_up = true;

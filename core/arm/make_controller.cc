@@ -33,7 +33,7 @@ ControllerTypes simulated_controllers() {
     FaultyLink* faults = made.get();
     return MadeController{std::move(made), faults};
   };
-  return {{"sim", make}};
+  return {{"sim", make}, {"remote", make}};
 }
 
 Result<std::vector<MadeController>> make_controllers(const CellPtr& cell,

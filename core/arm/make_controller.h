@@ -26,7 +26,8 @@ using MakeController = std::function<Result<MadeController>(const CellPtr& cell,
 // By ControllerDescription::type.
 using ControllerTypes = std::map<std::string, MakeController>;
 
-// Returns the types that need nothing outside this folder: "sim".
+// Returns simulations for all types of the cell file: "sim", and "remote" for runs without the real
+// controllers.
 [[nodiscard]] ControllerTypes simulated_controllers();
 
 // Makes the controllers of all arms, by ArmId, with every arm at home. Problem: a type that is not

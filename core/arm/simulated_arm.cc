@@ -185,6 +185,12 @@ const ArmFeedback& SimulatedArm::tick(TimePoint now) {
   return feedback_;
 }
 
+void SimulatedArm::place_at(const Eigen::VectorXd& q) {
+  if (under_way() || coasting_) return;
+  position_ = q;
+  measure();
+}
+
 // Each joint brakes by itself, until all rest off the path.
 void SimulatedArm::coast(Duration period) {
   const double period_s = to_seconds(period);

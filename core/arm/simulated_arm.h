@@ -47,6 +47,11 @@ class SimulatedArm final : public ArmController {
   void push(Eigen::Index joint, double distance);
   // Runs one control cycle up to `now` and returns the arm's state. Called by poll().
   const ArmFeedback& tick(TimePoint now);
+  // Returns the state after the last tick.
+  [[nodiscard]] const ArmFeedback& state() const { return feedback_; }
+  // Places an arm at rest, without drives, at `q` (as joints()): it was moved from outside. No
+  // effect while the arm moves.
+  void place_at(const Eigen::VectorXd& q);
 
  private:
   // Each returns why the command is rejected; empty if it is carried out.

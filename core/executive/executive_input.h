@@ -11,9 +11,9 @@
 namespace armloom {
 
 // An external input that changes an executive, as recorded by InputLog. The cell, the options, the
-// ticks and these inputs determine everything that the executive does. Arms are simulated from a
-// seed. The content of verdicts and plans follows from their questions, so only the times of their
-// arrival are inputs.
+// ticks and these inputs determine everything that the executive does. Arms in this process are
+// simulated from a seed. The content of verdicts and plans follows from their questions, so only
+// the times of their arrival are inputs.
 struct ExecutiveInput {
   // A job as requested. Everything that is not here is read from `body`.
   struct AskedJob {
@@ -108,10 +108,20 @@ struct ExecutiveInput {
   struct StartWritten {
     JobId job{0};
   };
+  // A controller in another process reported its arm, or its connection changed. The next control
+  // cycle takes it.
+  struct Reported {
+    std::string arm;
+    ArmFeedback feedback;
+  };
+  struct Connected {
+    std::string arm;
+    ArmConnection connection;
+  };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
                ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved,
-               Alerted, Judged, Certified, Planned, StartWritten>
+               Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected>
       what;
 };
 

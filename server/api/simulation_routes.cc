@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "server/api/route.h"
+#include "server/drivers/remote_controller.h"
 #include "server/messages/fault.h"
 
 namespace armloom {
@@ -17,6 +18,13 @@ void put_speed(Call call) {
   };
   const ApiParts& parts = call.parts;
   const auto set = [&parts, respond = call.respond](const auto& speed) {
+    const auto remote = remote_robots(*parts.cell);
+    if (speed.speed != 1.0 && !remote.empty()) {
+      return respond(problem_response(
+          {Problem{ProblemKind::invalid, "speed-of-remote-robot", "/speed",
+                   "robot " + remote.front() + " has a remote controller, which runs in real time",
+                   speed.speed}}));
+    }
     ask(
         parts,
         [&parts, speed](Executive& executive) {

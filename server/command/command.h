@@ -47,6 +47,19 @@ struct ServeOptions {
 };
 int serve(const ServeOptions& options);
 
+// Runs the simulated arms of one robot as a process of their own, until SIGINT or SIGTERM.
+// Precondition: either `listen` or `hello` is given.
+struct ArmOptions {
+  std::string cell_file;
+  std::string robot;
+  std::string listen;      // see parse_endpoint()
+  bool physics = false;    // masses, drives and contacts (server/physics)
+  std::string payload;     // LINK=KG, with physics
+  bool hello = false;      // prints the server's hello instead, for tests of drivers
+  std::uint64_t seed = 1;  // of the noise
+};
+int run_arm(const ArmOptions& options);
+
 // Adds, lists or revokes tokens; prints a new token once.
 struct TokenOptions {
   enum class What { add, list, revoke };

@@ -202,6 +202,34 @@ Command compare_command(CLI::App& app) {
   return {command, [options] { return compare_policies(*options); }};
 }
 
+Command arm_command(CLI::App& app) {
+  const auto options = std::make_shared<ArmOptions>();
+  CLI::App* command = app.add_subcommand(
+      "arm", "run the simulated arms of one robot as a process that `armloom serve` connects to");
+  add_cell(*command, options->cell_file);
+  command->add_option("--robot", options->robot, "robot of the cell file")->required();
+  CLI::Option* listen =
+      command->add_option("--listen", options->listen,
+                          "address at which the server connects: unix:PATH or tcp:ADDRESS:PORT");
+  command
+      ->add_flag("--hello", options->hello,
+                 "print the server's first message to this robot, for tests of a driver")
+      ->excludes(listen);
+  CLI::Option* physics = command->add_flag("--physics", options->physics,
+                                           "simulate masses, drives, brakes and contacts (MuJoCo)");
+  command
+      ->add_option("--payload", options->payload,
+                   "with --physics: LINK=KG, a mass at a link that the drives do not know")
+      ->needs(physics);
+  add_seed(*command, options->seed);
+  command->final_callback([options] {
+    if (options->listen.empty() && !options->hello) {
+      throw CLI::RequiredError("--listen");
+    }
+  });
+  return {command, [options] { return run_arm(*options); }};
+}
+
 Command replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayOptions>();
   CLI::App* command =
@@ -378,11 +406,12 @@ void refuse_empty_values(CLI::App& command) {
 
 std::vector<Command> add_commands(CLI::App& app) {
   std::vector<Command> commands{
-      serve_command(app),   validate_command(app), schema_command(app),  import_command(app),
-      check_command(app),   plan_command(app),     reach_command(app),   simulate_command(app),
-      compare_command(app), replay_command(app),   history_command(app), token_command(app),
-      audit_command(app),   jobs_command(app),     why_command(app),     stop_command(app),
-      resume_command(app),  speed_command(app),    cancel_command(app),  events_command(app),
+      serve_command(app),   validate_command(app), schema_command(app), import_command(app),
+      check_command(app),   plan_command(app),     reach_command(app),  simulate_command(app),
+      compare_command(app), arm_command(app),      replay_command(app), history_command(app),
+      token_command(app),   audit_command(app),    jobs_command(app),   why_command(app),
+      stop_command(app),    resume_command(app),   speed_command(app),  cancel_command(app),
+      events_command(app),
   };
   refuse_empty_values(app);
   return commands;

@@ -107,6 +107,7 @@ int compare_policies(const CompareOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
+  note_simulated_robots(cell);
   const auto policies = read_policies(options.policies);
   if (!policies) return refuse("", policies.error());
   const auto jobs = load_jobs(options.jobs_file, cell);

@@ -77,6 +77,14 @@ std::optional<JobsFile> load_jobs(const std::string& file, const Cell& cell) {
   return loaded;
 }
 
+void note_simulated_robots(const Cell& cell) {
+  for (const Robot& robot : cell.robots) {
+    if (robot.controller.type != "remote") continue;
+    std::cerr << "armloom: note: robot " << robot.name << " is simulated here: its controller at "
+              << robot.controller.endpoint << " is not used\n";
+  }
+}
+
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
                           const std::string& under) {
   for (const auto& refused : result.refused) {

@@ -21,6 +21,9 @@ struct JobsFile {
 // limits and duplicate ids. If there are faults, prints them and returns nullopt.
 [[nodiscard]] std::optional<JobsFile> load_jobs(const std::string& file, const Cell& cell);
 
+// Prints the robots whose controllers are in other processes, but are simulated by this command.
+void note_simulated_robots(const Cell& cell);
+
 // Prints each job that was refused on submission, with its place in the file. `under`: the policy,
 // if several policies are simulated.
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,

@@ -13,6 +13,7 @@
 
 #include "server/access/token_file.h"
 #include "server/command/command.h"
+#include "server/drivers/remote_controller.h"
 #include "server/http/framing.h"
 #include "server/http/http_server.h"
 #include "server/log/log_line.h"
@@ -97,6 +98,17 @@ void find_faults_of_access(const ServeOptions& options, const std::string& addre
   if (!tokens) problems.insert(problems.end(), tokens.error().begin(), tokens.error().end());
 }
 
+// Robots in other processes run in real time.
+void find_faults_of_speed(const ServeOptions& options, const Cell& cell, Problems& problems) {
+  const std::vector<std::string> remote = remote_robots(cell);
+  if (options.speed == 1.0 || remote.empty()) return;
+  problems.push_back(Problem{ProblemKind::invalid, "speed-of-remote-robot", "--speed",
+                             "robot " + remote.front() +
+                                 " has a remote controller, which runs in real time: leave the "
+                                 "option out, or simulate the robot (controller type sim)",
+                             options.speed});
+}
+
 std::string dashboard_address(const std::string& scheme, const std::string& address,
                               std::uint16_t port) {
   const bool v6 = address.find(':') != address.npos;
@@ -178,6 +190,7 @@ int serve(const ServeOptions& options) {
     return kExitBadInput;
   }
   Problems faults = faults_of(options);
+  find_faults_of_speed(options, *loaded->cell, faults);
   const auto tokens =
       options.tokens.empty() ? Result<std::vector<KeptToken>>() : TokenFile(options.tokens).read();
   find_faults_of_access(options, service_options.address, tokens, faults);

@@ -97,7 +97,8 @@ void add_limits(CLI::App& command, ServeOptions& options) {
 
 Command serve_command(CLI::App& app) {
   const auto options = std::make_shared<ServeOptions>();
-  CLI::App* command = app.add_subcommand("serve", "run the server with simulated arms");
+  CLI::App* command = app.add_subcommand(
+      "serve", "run the server; it moves simulated arms, and robots in other processes");
   command->add_option("--cell", options->cell_file, "cell file (JSON)")->required();
   command->add_option("--listen", options->listen, "ADDRESS:PORT to listen on")
       ->capture_default_str();

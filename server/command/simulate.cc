@@ -75,6 +75,7 @@ int simulate_jobs(const SimulateOptions& options) {
   const auto loaded = load_cell(options.cell_file);
   if (!loaded) return kExitBadInput;
   const Cell& cell = *loaded->cell;
+  note_simulated_robots(cell);
   auto jobs = load_jobs(options.jobs_file, cell);
   if (!jobs) return kExitBadInput;
   std::vector<FaultRequest> faults;

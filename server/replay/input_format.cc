@@ -13,6 +13,8 @@
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
+#include "server/codec/whole_format.h"
+#include "server/drivers/arm_messages.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/scene.h"
@@ -24,27 +26,6 @@ using namespace formats;
 namespace {
 
 using In = ExecutiveInput;
-
-// An integer with any value of T. The format count() is not enough: it only allows the values that
-// clients may send.
-template <class T>
-class WholeFormat final : public CustomFormat<T> {
- public:
-  void read(const JsonNode& node, T& out) const override {
-    const nlohmann::json& raw = node.raw();
-    const bool fits = raw.is_number_integer() && std::in_range<T>(raw.get<std::int64_t>());
-    if (raw.is_number_unsigned() ? std::in_range<T>(raw.get<std::uint64_t>()) : fits) {
-      return void(out = raw.get<T>());
-    }
-    node.fault(ProblemKind::malformed, "wrong-type", "a whole number is expected here");
-  }
-  void write(JsonWriter& out, const T& number) const override { out.value(number); }
-  Schema schema(Way) const override { return {{"type", "integer"}}; }
-};
-template <class T = std::uint64_t>
-FormatPtr<T> whole() {
-  return make_format<WholeFormat<T>>();
-}
 
 // A job's body as the client sent it. A replay validates it again.
 class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {
@@ -153,6 +134,25 @@ PartPtr<Alert> alert_part() {
   });
 }
 
+PartPtr<In::Reported> report_part() {
+  return member<In::Reported>(
+      {"report", "", Need::required, {}}, feedback_format(),
+      [](const In::Reported& in) {
+        return std::optional<FeedbackMessage>(message_of(in.feedback, in.arm));
+      },
+      [](In::Reported& in, const FeedbackMessage& message) {
+        in = {message.arm, feedback_of(message)};
+      });
+}
+
+PartPtr<ArmConnection> connection_part() {
+  return parts<ArmConnection>({
+      always("is_up", &ArmConnection::is_up, flag()),
+      always("detail", &ArmConnection::detail, text()),
+      always("number", &ArmConnection::number, whole()),
+  });
+}
+
 // Name and fields of an input.
 template <class Input>
 struct Kind {
@@ -213,6 +213,10 @@ KindOfEach<decltype(In::what)>::Table kinds() {
        {number_part("job", &In::Planned::job),
         always("question", &In::Planned::question, whole())}},
       {"start_written", {number_part("job", &In::StartWritten::job)}},
+      {"reported", {report_part()}},
+      {"connected",
+       {always("arm", &In::Connected::arm, text()),
+        inlined(&In::Connected::connection, connection_part())}},
   };
 }
 

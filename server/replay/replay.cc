@@ -16,6 +16,7 @@
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
 #include "server/replay/input_format.h"
+#include "server/replay/reported_arms.h"
 
 namespace armloom {
 namespace {
@@ -74,6 +75,8 @@ class Replay::Impl final : public InputLog {
     options.seed = head.seed;
     options.first_job = JobId{head.first_job};
     options.inputs = this;
+    options.controllers = arms_.controllers();
+    options.controllers.merge(simulated_controllers());
     auto made = SteppedLoop::create(cell_, std::move(options), observer);
     if (!made) return std::move(made.error());
     loop_ = std::move(*made);
@@ -157,8 +160,16 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Certified&) { loop_->answer_certify(); }
   void comes(const In::Planned&) { loop_->answer_plan(); }
   void comes(const In::StartWritten& in) { loop_->write_start(in.job); }
+  void comes(const In::Reported& in) { comes_from_arm(in); }
+  void comes(const In::Connected& in) { comes_from_arm(in); }
+  template <class Input>
+  void comes_from_arm(const Input& in) {
+    arms_.add(in);
+    came(loop_->ticks(), {in});
+  }
 
   CellPtr cell_;
+  ReportedArms arms_;
   std::unique_ptr<SteppedLoop> loop_;
   std::shared_ptr<Executive::Batch> batch_;
   std::vector<std::string> echo_;  // inputs logged by this executive for the present line

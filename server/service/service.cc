@@ -13,6 +13,7 @@
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
+#include "server/drivers/remote_controller.h"
 #include "server/durable/damage.h"
 #include "server/durable/request_trail.h"
 #include "server/durable/restart.h"
@@ -20,6 +21,7 @@
 #include "server/http/static_files.h"
 #include "server/hub/broadcast.h"
 #include "server/replay/input_file.h"
+#include "server/replay/reported_arms.h"
 
 namespace armloom {
 
@@ -79,6 +81,10 @@ class Service::Impl {
       executive_options.first_job = JobId{keeper_->store().leftover().last_number + 1};
     }
     if (auto problems = log_inputs(cell, executive_options, post)) return problems;
+    ControllerTypes remote = remote_controllers(stream_);
+    if (inputs_) remote = recorded(std::move(remote), *inputs_);
+    remote.merge(simulated_controllers());
+    executive_options.controllers = std::move(remote);
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());

@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/policies/policy_names.h", "core/scheduler", "core/monitor", "core/guard", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
-      "core/planning", "core/executive", "core/audit"}},
+      "core/planning", "core/arm", "core/executive", "core/audit"}},
 };
 
 // Modules of a folder, lowest first: each includes only from itself and lower modules.
@@ -61,10 +61,9 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
     {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
     {"core/model", {"xml", "urdf", "srdf", "cell"}},
     {"core/collision", {"scene", "filter", "state", "diagram", "check"}},
-    {"server",
-     {"access", "store", "codec", "metrics", "log", "physics", "http", "messages", "control",
-      "recording", "import", "replay", "comparison", "durable", "hub", "api", "service",
-      "command"}},
+    {"server", {"access",      "store",   "codec",    "metrics", "log",       "physics", "drivers",
+                "arm_process", "http",    "messages", "control", "recording", "import",  "replay",
+                "comparison",  "durable", "hub",      "api",     "service",   "command"}},
 };
 
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {

@@ -88,6 +88,34 @@ INSTANTIATE_TEST_SUITE_P(
         MISTAKE(cell.robots[0].controller.noise_rad = -0.1, "/robots/0/controller/noise_rad",
                 "noise_rad is -0.1")));
 
+namespace {
+void set_endpoint(CellDescription& cell, const char* type, const char* endpoint) {
+  cell.robots[0].controller.type = type;
+  cell.robots[0].controller.endpoint = endpoint;
+}
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(
+    Endpoints, CellMistake,
+    testing::Values(MISTAKE(set_endpoint(cell, "remote", ""), "/robots/0/controller",
+                            "a remote controller needs its endpoint: unix:PATH or tcp:HOST:PORT"),
+                    MISTAKE(set_endpoint(cell, "sim", "unix:/tmp/left"),
+                            "/robots/0/controller/endpoint",
+                            "a controller of type sim has no endpoint"),
+                    MISTAKE(set_endpoint(cell, "remote", "/tmp/left"),
+                            "/robots/0/controller/endpoint", "expected unix:PATH or tcp:HOST:PORT"),
+                    MISTAKE(set_endpoint(cell, "remote", "unix:"), "/robots/0/controller/endpoint",
+                            "the path is missing"),
+                    MISTAKE(set_endpoint(cell, "remote", "tcp:10.0.0.7"),
+                            "/robots/0/controller/endpoint", "host or port is missing"),
+                    MISTAKE(set_endpoint(cell, "remote", "tcp:10.0.0.7:70000"),
+                            "/robots/0/controller/endpoint", "not a number from 0 to 65535"),
+                    MISTAKE(set_endpoint(cell, "remote", "tcp:10.0.0.7:0"),
+                            "/robots/0/controller/endpoint", "cannot connect to port 0"),
+                    MISTAKE(set_endpoint(cell, "remote", "tcp:::1:4000"),
+                            "/robots/0/controller/endpoint",
+                            "an IPv6 address stands in brackets")));
+
 INSTANTIATE_TEST_SUITE_P(
     Arms, CellMistake,
     testing::Values(MISTAKE(left(cell).home = {0.3}, "/robots/0/arms/0/home",

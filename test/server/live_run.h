@@ -180,7 +180,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 2:
       case 15:
       case 16:
-        return resume_all(*executive_);
+        return (void)resume_all(*executive_);
       case 3:
         return (void)executive_->cancel(some_job());
       case 4:

@@ -7,6 +7,7 @@
 
 #include "core/base/number_range.h"
 #include "core/base/plain_name.h"
+#include "core/model/endpoint.h"
 
 namespace armloom {
 namespace {
@@ -32,6 +33,27 @@ void require(bool holds, double value, const std::string& pointer, const std::st
   const std::string key = pointer.substr(pointer.rfind('/') + 1);
   diagnostics.in_cell("setting-out-of-range", pointer,
                       key + " is " + text_of(value) + ", it must be " + rule, value);
+}
+
+void check_endpoint(const ControllerDescription& controller, const std::string& pointer,
+                    Diagnostics& diagnostics) {
+  if (controller.type != "remote") {
+    if (controller.endpoint.empty()) return;
+    diagnostics.in_cell("endpoint-not-used", pointer + "/endpoint",
+                        "a controller of type " + controller.type +
+                            " has no endpoint: remove it, or set the type to remote",
+                        controller.endpoint);
+  } else if (controller.endpoint.empty()) {
+    diagnostics.in_cell("missing", pointer,
+                        "a remote controller needs its endpoint: unix:PATH or tcp:HOST:PORT");
+  } else if (const auto endpoint = parse_endpoint(controller.endpoint); !endpoint) {
+    diagnostics.in_cell("bad-endpoint", pointer + "/endpoint", endpoint.error().front().detail,
+                        controller.endpoint);
+  } else if (endpoint->port == "0") {
+    diagnostics.in_cell("bad-endpoint", pointer + "/endpoint",
+                        "the server cannot connect to port 0: name the controller's port",
+                        controller.endpoint);
+  }
 }
 
 class ShapeCheck {
@@ -182,6 +204,7 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
       within(CheckingSettings::tracking_error_range, *controller.tracking_error_rad,
              pointer + "/tracking_error_rad");
     }
+    check_endpoint(controller, pointer, diagnostics);
   }
 }
 
