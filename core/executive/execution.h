@@ -32,7 +32,9 @@ class Execution {
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.job); }
   void carry_out(const Release& release) { gate_.release(release.job); }
-  void brake(ArmId arm) { motions_.brake(arm); }
+  void brake(ArmId arm, StopCategory category = StopCategory::brake) {
+    motions_.brake(arm, category);
+  }
   void brake_all() { motions_.brake_all(); }
   void set_speed(std::vector<double> shares) { motions_.set_speed(std::move(shares)); }
   void forget(const Job& ended);

@@ -72,9 +72,10 @@ void Executive::alert(Alert alert) {
   impl_->note({ExecutiveInput::Alerted{alert}});
   impl_->publisher_.tell(std::move(alert), impl_->clock_.now);
 }
-void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
-  impl_->note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause}});
-  impl_->stop(arms, cause);
+void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause,
+                     StopCategory category) {
+  impl_->note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause, category}});
+  impl_->stop(arms, cause, Alert::Level::warning, category);
 }
 std::vector<ArmId> Executive::resume(const std::vector<ArmId>& arms) {
   impl_->note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
@@ -130,8 +131,8 @@ Executive::BatchAnswers submit_batch(Executive& executive, std::vector<JobReques
   }
 }
 
-void stop_all(Executive& executive, const std::string& cause) {
-  executive.stop(all_arms(executive.scene().scene()->cell()), cause);
+void stop_all(Executive& executive, const std::string& cause, StopCategory category) {
+  executive.stop(all_arms(executive.scene().scene()->cell()), cause, category);
 }
 
 std::vector<ArmId> resume_all(Executive& executive) {

@@ -227,7 +227,10 @@ class Executive {
   [[nodiscard]] Result<JobView> replan(const std::string& key);
 
   void alert(Alert alert);
-  void stop(const std::vector<ArmId>& arms, const std::string& cause);
+  // The arms stay stopped until they are resumed. Category 0 takes moving arms off their paths:
+  // their jobs fail.
+  void stop(const std::vector<ArmId>& arms, const std::string& cause,
+            StopCategory category = StopCategory::brake);
   // Returns the arms that stay stopped, because the link to their controller is not up.
   std::vector<ArmId> resume(const std::vector<ArmId>& arms);
   // Sets the speed override of the arm, or of the cell: the largest share of the planned speed,
@@ -276,7 +279,8 @@ class Executive {
 
 [[nodiscard]] Executive::BatchAnswers submit_batch(Executive& executive,
                                                    std::vector<JobRequest> requests, bool atomic);
-void stop_all(Executive& executive, const std::string& cause);
+void stop_all(Executive& executive, const std::string& cause,
+              StopCategory category = StopCategory::brake);
 std::vector<ArmId> resume_all(Executive& executive);  // as Executive::resume()
 
 }  // namespace armloom

@@ -332,7 +332,7 @@ void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
 // ---- What is asked of all arms ----
 
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
-                           Alert::Level level) {
+                           Alert::Level level, StopCategory category) {
   // Whoever asks again and again is heard each time, and told of once.
   const bool is_news =
       std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stop_cause(arm) != cause; });
@@ -341,6 +341,8 @@ void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& ca
                     clock_.now);
   }
   step(Stop{arms, cause});
+  if (category == StopCategory::brake) return;
+  for (const ArmId arm : arms) execution_.brake(arm, category);
 }
 
 std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {

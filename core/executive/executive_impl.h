@@ -58,7 +58,8 @@ class Executive::Impl {
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
   void stop(const std::vector<ArmId>& arms, const std::string& cause,
-            Alert::Level level = Alert::Level::warning);
+            Alert::Level level = Alert::Level::warning,
+            StopCategory category = StopCategory::brake);
   std::vector<ArmId> resume(std::vector<ArmId> arms);
   void set_speed(std::optional<ArmId> arm, double share);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;

@@ -61,6 +61,7 @@ struct ExecutiveInput {
   struct Stopped {
     std::vector<std::string> arms;  // names
     std::string cause;
+    StopCategory category = StopCategory::brake;
   };
   struct Resumed {
     std::vector<std::string> arms;

@@ -27,7 +27,7 @@ class Motions {
   void grant(const Grant& grant);
   void brake(JobId job);
   // Brakes an arm that may have no motion.
-  void brake(ArmId arm) { command(arm, ArmCommand::Brake{}); }
+  void brake(ArmId arm, StopCategory category) { command(arm, ArmCommand::Brake{category}); }
   void brake_all();
   // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
   void set_speed(std::vector<double> shares);

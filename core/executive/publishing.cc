@@ -72,7 +72,8 @@ void Publisher::tell_arms(TimePoint now) {
     const ArmStatus& status = arms_[arm.index()];
     ArmStatus& told = told_arms_[arm.index()];
     const bool is_same = status.state == told.state && status.job == told.job &&
-                         status.link == told.link && status.speed_override == told.speed_override &&
+                         status.link == told.link && status.drives_on == told.drives_on &&
+                         status.speed_override == told.speed_override &&
                          status.effective_speed_override == told.effective_speed_override;
     if (is_same) continue;
     told = status;
@@ -238,6 +239,7 @@ ArmStatus Publisher::status_of(ArmId arm) const {
                    .deviation_rad = shown_.motions.deviation(arm),
                    .link = shown_.motions.link(arm).state(),
                    .link_detail = shown_.motions.link(arm).detail(),
+                   .drives_on = shown_.motions.feedback(arm).drives_on,
                    .speed_override = shown_.scheduler.speed().arm(arm),
                    .effective_speed_override = shown_.scheduler.speed().effective(arm)};
   status.job = shown_.scheduler.occupant(arm);

@@ -24,6 +24,7 @@ struct ArmStatus {
   double deviation_rad = 0.0;     // ArmView
   ArmLink::State link = ArmLink::State::up;
   std::string link_detail = {};
+  bool drives_on = true;
   double speed_override = 1.0;            // ArmView
   double effective_speed_override = 1.0;  // ArmView
 };

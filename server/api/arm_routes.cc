@@ -4,14 +4,13 @@
 #include <utility>
 
 #include "core/executive/status_board.h"
+#include "server/api/query_format.h"
 #include "server/api/route.h"
 #include "server/messages/arm.h"
 #include "server/messages/plain_text.h"
 
 namespace armloom {
 namespace {
-
-using Arms = std::vector<ArmId>;
 
 void list_arms(Call call) {
   const auto arms = arms_of(call.parts.loop.board().read(), *call.parts.cell);
@@ -26,29 +25,47 @@ std::optional<ArmId> named_arm(const Call& call) {
   return arm;
 }
 
-// Runs change(executive, {arm}) on the executive's strand, ahead of everything that waits there.
-// Answers with the arm's new state.
-template <class Change>
-void with_arm(Call& call, Change change) {
-  const auto arm = named_arm(call);
-  if (!arm) return;
-  ask_urgently(
-      call.parts,
-      [arm = *arm, change](Executive& executive) {
-        change(executive, Arms{arm});
-        return executive.arms()[arm.index()];
-      },
-      [respond = call.respond](const ArmView& view) { respond(answer(202, arm_format(), view)); });
-}
-
 void get_arm(Call call) {
   const auto arm = named_arm(call);
   if (!arm) return;
   const auto arms = arms_of(call.parts.loop.board().read(), *call.parts.cell);
   call.respond(answer(200, arm_format(), arms[arm->index()]));
 }
+struct StopQuery {
+  int category = 2;
+};
+const QueryFormat<StopQuery>& stop_query() {
+  static const QueryFormat<StopQuery> format(
+      {query::whole_number<StopQuery>(
+          "category", &StopQuery::category, 0, 2,
+          "Stop category of IEC 60204-1, default 2. 2: brake on the path, then hold the position. "
+          "1: brake on the path, then switch the drives off. 0: switch the drives off at once: "
+          "moving arms leave their paths, and their jobs fail")},
+      ProblemKind::malformed);
+  return format;
+}
+// Returns the stop category. A request with a wrong category still stops, with category 2; it is
+// then answered with the problem.
+std::pair<StopCategory, Problems> stop_category(const Call& call) {
+  auto query = stop_query().read(call.request.target);
+  if (query) return {static_cast<StopCategory>(query->category), {}};
+  query.error().front().detail += ". The arms were stopped with category 2";
+  return {StopCategory::brake, query.error()};
+}
+
 void stop_arm(Call call) {
-  with_arm(call, [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
+  const auto arm = named_arm(call);
+  if (!arm) return;
+  const auto [category, problems] = stop_category(call);
+  ask_urgently(
+      call.parts,
+      [arm = *arm, category = category](Executive& executive) {
+        executive.stop({arm}, "operator", category);
+        return executive.arms()[arm.index()];
+      },
+      [respond = call.respond, problems = problems](const ArmView& view) {
+        respond(problems.empty() ? answer(202, arm_format(), view) : problem_response(problems));
+      });
 }
 // While the store refuses writes, answers 503 and returns true: nothing may be resumed then.
 bool is_held_by_store(const Call& call) {
@@ -81,15 +98,16 @@ void resume_arm(Call call) {
 
 void stop_all(Call call) {
   const auto asked = std::chrono::steady_clock::now();
+  const auto [category, problems] = stop_category(call);
   ask_urgently(
       call.parts,
-      [&parts = call.parts, asked](Executive& executive) {
-        stop_all(executive, "operator");
+      [&parts = call.parts, asked, category = category](Executive& executive) {
+        stop_all(executive, "operator", category);
         parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
         return Stopped{.stopped = true};
       },
-      [respond = call.respond](const Stopped& now) {
-        respond(answer(202, stopped_format(), now));
+      [respond = call.respond, problems = problems](const Stopped& now) {
+        respond(problems.empty() ? answer(202, stopped_format(), now) : problem_response(problems));
       });
 }
 void resume_all(Call call) {
@@ -203,6 +221,7 @@ std::vector<Route> arm_routes() {
   Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
   stop_one.outcomes = {outcome(202, "The arm brakes on its path and stays stopped", arm_format())};
   stop_one.refuses = {404};
+  stop_one.parameters = stop_query().parameters();
   stop_one.is_never_limited = true;
   stop_one.as_text = arm_text;
   stop_one.run = stop_arm;
@@ -216,6 +235,7 @@ std::vector<Route> arm_routes() {
   Route stop = command("/stop", "stopAll", "Stop every arm");
   stop.outcomes = {
       outcome(202, "All arms brake on their paths and stay stopped", stopped_format())};
+  stop.parameters = stop_query().parameters();
   stop.is_never_limited = true;
   stop.as_text = stopped_text;
   stop.run = stop_all;

@@ -38,7 +38,7 @@ std::vector<std::unique_ptr<ArmController>> controllers_of(const CellPtr& cell, 
 }
 
 void warn_of_access(const Endpoint& endpoint) {
-  if (endpoint.is_unix() || reach_of(endpoint.host) != Reach::others) return;
+  if (endpoint.is_unix() || reach_of(endpoint.host) != AddressReach::others) return;
   std::cerr << "armloom: warning: hazard: everybody who can reach " << endpoint.text()
             << " can move the arms: the protocol has no access control. Use a separate network, or "
                "listen on 127.0.0.1 behind a tunnel\n";

@@ -304,6 +304,12 @@ Command stop_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "stop", "stop arms of a running server (an operational stop, no emergency stop)");
   command->add_option("arms", options->arms, "arms to stop (default: all)");
+  command
+      ->add_option(
+          "--category", options->category,
+          "2: brake, then hold (default); 1: brake, then drives off; 0: drives off at once, "
+          "and the arms leave their paths")
+      ->check(CLI::Range(0, 2));
   add_server(*command, options->server);
   return {command, [options] { return stop_remote_arms(*options); }};
 }

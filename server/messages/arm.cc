@@ -99,6 +99,8 @@ FormatPtr<ArmView> arm_format() {
                         "until it is resumed"),
             output_only("link_detail", &ArmView::link_detail, text_or_null(),
                         "Why the link is not up; null if it is"),
+            output_only("drives_on", &ArmView::drives_on, flag(),
+                        "False after a stop of category 0 or 1, until the arm's next motion"),
             arm_speed_part(),
         }));
   }();

@@ -185,7 +185,11 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"replan", {always("job", &In::Replanned::job, text())}},
       {"stop",
        {always("arms", &In::Stopped::arms, list(text())),
-        always("cause", &In::Stopped::cause, text())}},
+        always("cause", &In::Stopped::cause, text()),
+        always(
+            "category", &In::Stopped::category, integer({0, 2}), "",
+            [](StopCategory category) { return static_cast<int>(category); },
+            [](int category) { return static_cast<StopCategory>(category); })}},
       {"resume", {always("arms", &In::Resumed::arms, list(text()))}},
       {"set_speed",
        {always("arm", &In::SpeedSet::arm, text(), "The cell if empty"),

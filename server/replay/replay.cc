@@ -138,7 +138,7 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Held& in) { (void)executive().cancel(in.job, in.until); }
   void comes(const In::Amended& in) { (void)executive().amend(in.job, in.amendment); }
   void comes(const In::Replanned& in) { (void)executive().replan(in.job); }
-  void comes(const In::Stopped& in) { executive().stop(arms(in.arms), in.cause); }
+  void comes(const In::Stopped& in) { executive().stop(arms(in.arms), in.cause, in.category); }
   void comes(const In::Resumed& in) { executive().resume(arms(in.arms)); }
   void comes(const In::SpeedSet& in) {
     if (!SpeedOverride::is_valid(in.share)) throw std::invalid_argument("wrong speed override");

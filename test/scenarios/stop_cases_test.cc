@@ -145,5 +145,41 @@ TEST_F(TimedDiscreteStop, MotionPausesBeforeAnArmThatIsCanceled) {
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
+TEST(StopCategories, Category1SwitchesTheDrivesOffAtRestAndTheJobContinues) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "goes on"));
+  cell.run_until(at(1s));
+  Executive& executive = cell.simulation->executive();
+  stop_all(executive, "operator", StopCategory::brake_then_switch_off);
+  cell.run_until(at(1010ms));
+  EXPECT_TRUE(executive.arms()[0].drives_on) << "while it brakes";
+  EXPECT_FALSE(executive.arms()[1].drives_on) << "it rests";
+  cell.run_until(at(3s));
+  EXPECT_FALSE(executive.arms()[0].drives_on);
+  EXPECT_EQ(cell.job("goes on").state, JobState::paused);
+  resume_all(executive);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("goes on").state, JobState::succeeded);
+  EXPECT_TRUE(executive.arms()[0].drives_on);
+}
+
+TEST(StopCategories, Category0TakesTheArmOffItsPathAndFailsItsJob) {
+  Crossing cell;
+  cell.submit(slide("x", -1, 1, 4, "leaves its path"));
+  cell.run_until(at(1s));
+  Executive& executive = cell.simulation->executive();
+  executive.stop({ArmId{0}}, "operator", StopCategory::switch_off);
+  cell.run_until(at(3s));
+  EXPECT_FALSE(executive.arms()[0].drives_on);
+  EXPECT_TRUE(executive.arms()[1].drives_on) << "it was not stopped";
+  EXPECT_EQ(cell.job("leaves its path").state, JobState::failed);
+  EXPECT_EQ(cell.job("leaves its path").reason(), Reason::arm_fault);
+  const double stands = executive.arms()[0].q.front();
+  resume_all(executive);
+  cell.submit(slide("x", stands, 1, 4, "from there"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("from there").state, JobState::succeeded);
+}
+
 }  // namespace
 }  // namespace armloom
