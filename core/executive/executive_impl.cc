@@ -319,7 +319,9 @@ void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
       if (std::ranges::find(stopped, arm, &Stop::StoppedArm::arm) != stopped.end()) continue;
       stopped.push_back({arm, "monitor: " + event.text});
       // The scheduler brakes motions only.
-      if (!execution_.motions().trajectory(arm)) execution_.brake(arm);
+      const bool is_ignored = finding.kind == MonitorFinding::Kind::stop_ignored;
+      if (is_ignored) execution_.brake(arm, StopCategory::switch_off);
+      if (!is_ignored && !execution_.motions().trajectory(arm)) execution_.brake(arm);
     }
     publisher_.tell(std::move(event), clock_.now);
   }

@@ -58,10 +58,7 @@ void Motions::grant(const Grant& grant) {
 }
 
 void Motions::brake_all() {
-  for (LinkedArm& arm : arms_) {
-    arm.link.command(ArmCommand::Brake{});
-    arm.link.flush(*arm.controller);
-  }
+  for (std::uint32_t a = 0; a < arms_.size(); ++a) command(ArmId{a}, ArmCommand::Brake{});
 }
 
 void Motions::set_speed(std::vector<double> shares) {
@@ -96,6 +93,7 @@ void Motions::release(JobId job) {
 }
 
 void Motions::tick_arms(TimePoint now) {
+  now_ = now;
   for (LinkedArm& arm : arms_) {
     const Duration before = arm.link.feedback().measured_progress;
     arm.link.exchange(*arm.controller, now);

@@ -26,6 +26,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .authority = position.at_rest ? feedback.measured_progress : position.authority,
         .rests = rests,
         .brakes = brakes,
+        .told_to_brake = motions.told_to_brake(arm),
         .rests_at = feedback.rests_at,
         .off_path = position.off_path,
         .feedback_age = link.state() == ArmLink::State::connecting ? Duration{} : link.age(),

@@ -242,6 +242,7 @@ ArmStatus Publisher::status_of(ArmId arm) const {
                    .drives_on = shown_.motions.feedback(arm).drives_on,
                    .speed_override = shown_.scheduler.speed().arm(arm),
                    .effective_speed_override = shown_.scheduler.speed().effective(arm)};
+  status.deviation_max_rad = std::max(arms_[arm.index()].deviation_max_rad, status.deviation_rad);
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
     const Job& job = *shown_.scheduler.find(*status.job);

@@ -50,6 +50,9 @@ std::string sentence(const MonitorFinding& finding, const Cell& cell) {
     case Kind::beyond_authority:
       return arm + " passed its authority: at " + figure("%.3f s", finding.value) +
              " of its motion, permitted " + limit;
+    case Kind::stop_ignored:
+      return arm + " still moves " + figure("%.3f s", finding.value) +
+             " after it was told to brake, limit " + limit + ": its drives are switched off";
     case Kind::late_feedback:
       return arm + ": last report " + figure("%.3f s", finding.value) + " old, limit " + limit;
     case Kind::frozen_feedback:

@@ -46,6 +46,7 @@ ArmView view_of(const ArmStatus& status, ArmId id, const Cell& cell, const Confi
                .progress = status.progress,
                .home = {arm.home.begin(), arm.home.end()},
                .deviation_rad = status.deviation_rad,
+               .deviation_max_rad = status.deviation_max_rad,
                .link = status.link,
                .link_detail = status.link_detail,
                .drives_on = status.drives_on,

@@ -22,6 +22,7 @@ struct ArmStatus {
   std::optional<JobId> job = {};  // in motion or paused
   double progress = 0.0;          // of this job
   double deviation_rad = 0.0;     // ArmView
+  double deviation_max_rad = 0.0;
   ArmLink::State link = ArmLink::State::up;
   std::string link_detail = {};
   bool drives_on = true;

@@ -19,6 +19,7 @@ struct MonitorFinding {
     unplanned_motion,      // an arm without a motion leaves the position where it rested
     early_finish,          // a controller reported "finished" away from the goal
     beyond_authority,      // an arm passed its authority
+    stop_ignored,          // an arm still moves although it was told to brake
     late_feedback,         // no new feedback within the controller's timeout
     frozen_feedback,       // new feedback, but positions do not follow the commanded progress
     implausible_feedback,  // positions changed faster than the joints can move
@@ -30,7 +31,7 @@ struct MonitorFinding {
   std::vector<ArmId> stops = {};      // ascending
   std::optional<ArmId> arm = {};      // the arm that violates a premise
   std::optional<JointId> joint = {};  // the joint with the largest value, if there is one
-  // Premises: measured value and limit. Feedback and beyond_authority: s;
+  // Premises: measured value and limit. Feedback, beyond_authority and stop_ignored: s;
   // others: rad or m, of `joint`.
   double value = 0.0;
   double limit = 0.0;
@@ -51,6 +52,8 @@ struct MonitorFinding {
       return "early_finish";
     case MonitorFinding::Kind::beyond_authority:
       return "beyond_authority";
+    case MonitorFinding::Kind::stop_ignored:
+      return "stop_ignored";
     case MonitorFinding::Kind::late_feedback:
       return "late_feedback";
     case MonitorFinding::Kind::frozen_feedback:

@@ -22,16 +22,18 @@ LookAhead::LookAhead(CellPtr cell, Duration period)
 
 // ---- Where arms can get ----
 
-// Returns the measured rate of progress: trajectory time per time, one as planned.
+// Returns the commanded rate of progress: trajectory time per time, one as planned. A motion that
+// has just begun is assumed to go as planned until the next period.
 std::optional<double> LookAhead::rate_of(ArmId arm, const Observation& seen) {
   const ArmObservation& now = seen.arms[arm.index()];
   Pace& pace = paces_[arm.index()];
   if (pace.motion != now.motion) {
-    pace = {now.motion, now.measured, seen.time};
+    pace = {now.motion, now.commanded, seen.time};
+    if (now.commanded <= period_) pace.rate = 1.0;
   } else if (seen.time > pace.time) {
     const double rate =
-        to_seconds(now.measured - pace.measured) / to_seconds(seen.time - pace.time);
-    pace = {now.motion, now.measured, seen.time, std::clamp(rate, 0.0, 1.0)};
+        to_seconds(now.commanded - pace.commanded) / to_seconds(seen.time - pace.time);
+    pace = {now.motion, now.commanded, seen.time, std::clamp(rate, 0.0, 1.0)};
   }
   return pace.rate;
 }
@@ -101,7 +103,7 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     off_path_[arm.index()] = std::move(off);
   }
   const std::optional<double> rate = rate_of(arm, seen);
-  reach.slack = period_;
+  reach.slack = period_ + controller.reaction;  // the arm follows its commands that much later
   result.braking = reach;
   result.braking.to = std::max(reach.from, brakes_to);
   result.going = std::move(reach);

@@ -88,7 +88,7 @@ class LookAhead {
   std::vector<StoppingReach> stopping_reach_;  // by ArmId; of the last motion
   struct Pace {
     TrajectoryPtr motion;
-    Duration measured{};
+    Duration commanded{};
     TimePoint time{};
     std::optional<double> rate = {};  // nullopt in the first period of a motion
   };

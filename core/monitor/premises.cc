@@ -4,10 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "core/trajectory/stopping_reach.h"
+
 namespace armloom {
 namespace {
 
 // Sampled positions on the searched part of a path; between them the path is nearly straight.
+// The lag of an arm has died out after this many time constants: exp(-20) of 1 rad is 2e-9 rad.
+constexpr int kSettles = 20;
 constexpr Duration kSample = std::chrono::milliseconds(5);
 constexpr int kSamplesMax = 64;
 constexpr int kHalvings = 12;
@@ -108,6 +112,7 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
     if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
       check_path(arm, seen, found);
       check_rest(arm, seen, found);
+      check_stop(arm, seen, found);
     }
     state.last = seen.arms[a];
   }
@@ -245,6 +250,29 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
          .value = to_seconds(now.measured),
          .limit = to_seconds(now.authority)},
         found);
+}
+
+// A brake from the planned rate takes at most twice the stopping reach. Then the arm follows its
+// commands until the lag has died out.
+void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
+                              std::vector<MonitorFinding>& found) {
+  const ArmObservation& now = seen.arms[arm.index()];
+  MonitorFinding finding{.kind = Kind::stop_ignored, .time = seen.time};
+  if (!now.told_to_brake || !now.motion || now.rests) {
+    return judge(arm, false, true, std::move(finding), found);
+  }
+  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
+  const Duration told = seen.time - *now.told_to_brake;
+  const Duration allowance =
+      controller.reaction + controller.feedback_period + kSettles * controller.lag;
+  bool is_ignored = told > allowance;
+  if (is_ignored) {  // the reach takes longer to compute
+    const double limit_s = to_seconds(allowance) + 2.0 * stopping_reach_s(*cell_, *now.motion);
+    finding.value = to_seconds(told);
+    finding.limit = limit_s;
+    is_ignored = finding.value > limit_s;
+  }
+  judge(arm, is_ignored, false, std::move(finding), found);
 }
 
 void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {

@@ -81,6 +81,7 @@ class PremiseCheck {
   void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void begin_rest(ArmId arm, const Observation& seen);
   static void set_rest(ArmState& state, const Configuration& measured);
   void judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,

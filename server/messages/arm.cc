@@ -93,6 +93,8 @@ FormatPtr<ArmView> arm_format() {
             output_only("home", &ArmView::home, number_list()),
             output_only("deviation_rad", &ArmView::deviation_rad, number({0.0}),
                         "Largest measured deviation of a joint from the path"),
+            output_only("deviation_max_rad", &ArmView::deviation_max_rad, number({0.0}),
+                        "Largest `deviation_rad` since the session began"),
             output_only("link", &ArmView::link, choice<ArmLink::State>(),
                         "Link to the arm's controller. connecting: no report yet. stale: reports "
                         "are late, and the arm gets no more authority. lost: the arm is stopped "

@@ -203,6 +203,24 @@ TEST(Premises, ReportProgressBeyondAuthority) {
   EXPECT_EQ(found[0].limit, 0.5);
 }
 
+TEST(Premises, ReportAnArmThatIgnoresItsStop) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 200ms), IsEmpty());
+  w.arm().told_to_brake = w.seen.time;
+  Duration progress = 200ms;
+  std::vector<MonitorFinding> found;
+  while (found.empty() && progress < 1990ms) {
+    w.on_path(progress += 10ms);
+    found = w.look();
+  }
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].kind, Kind::stop_ignored);
+  EXPECT_GT(found[0].value, found[0].limit);
+  EXPECT_LT(found[0].value, found[0].limit + 0.02);
+  EXPECT_GT(found[0].limit, 0.4) << "it has time to brake and to settle";
+}
+
 TEST(Premises, ReportLateFeedbackOnce) {
   Watched w;
   w.start();

@@ -193,5 +193,23 @@ TEST(Monitor, DoesNotStopUninvolvedArms) {
   EXPECT_EQ(cell.job("three").state, JobState::succeeded);
 }
 
+TEST(Monitor, SwitchesTheDrivesOfAnArmOffThatIgnoresItsStop) {
+  Crossing cell(crossing_description(), "certified");
+  cell.submit(slide("x", -1, 1, 8, "ignores"));
+  Executive& executive = cell.simulation->executive();
+  ASSERT_TRUE(executive.faults().inject(
+      {.arm = "x", .kind = ArmFault::Kind::ignore_stop, .at = at(1s), .lasting = 100s}));
+  cell.run_until(at(2s));
+  executive.stop({ArmId{0}}, "operator");
+  cell.run_until(at(2100ms));
+  EXPECT_TRUE(executive.arms()[0].drives_on) << "it could still be braking";
+  cell.run_until(at(4s));
+  EXPECT_FALSE(executive.arms()[0].drives_on);
+  EXPECT_EQ(cell.job("ignores").reason(), Reason::arm_fault);
+  const double stands = executive.arms()[0].q.front();
+  cell.run_until(at(5s));
+  EXPECT_EQ(executive.arms()[0].q.front(), stands);
+}
+
 }  // namespace
 }  // namespace armloom

@@ -168,6 +168,7 @@ export const kText = {
     upper: 'upper',
     measured_column: 'measured',
     largest_deviation: 'largest deviation of a joint from its path',
+    largest_so_far: 'most in this session',
     no_limit: 'none',
     near_limit: ' near its limit',
     details_of: (name: string) => `Details of arm ${name}`,

@@ -103,7 +103,7 @@ function Joints({ arm, app }: { arm: Arm; app: App }) {
     <table class="joints" data-test={`joints-${arm.name}`}>
       <thead><tr>{[kWords.joint, kWords.lower, kWords.position, kWords.upper, kWords.measured_column].map((title) => <th key={title} scope="col">{title}</th>)}</tr></thead>
       <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} title={titles[i] ?? name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
-      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>{kWords.largest_deviation}</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
+      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>{kWords.largest_deviation}</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad ({kWords.largest_so_far}: {arm.deviation_max_rad.toFixed(4)})</td></tr></tfoot>}
     </table>
   );
 }
