@@ -20,7 +20,7 @@ bool at_rest(Phase phase) {
 
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
-    : cell_(std::move(cell)), measured_(std::move(measured)) {
+    : cell_(std::move(cell)), measured_(std::move(measured)), truth_(measured_) {
   for (std::size_t a = 0; a < controllers.size(); ++a) {
     const Robot& robot = cell_->robots[cell_->arms[a].robot.index()];
     ArmLink link(robot.controller, joints_of(measured_, controllers[a]->joints()));
@@ -32,6 +32,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
   Motion& motion = motions_[dispatch.job];
   motion.trajectory = trajectory;
   motion.authority = dispatch.authority;
+  motion.granted_max = std::max(motion.granted_max, motion.authority);
   motion.resting = motion.braking = false;
   motion.handed_on = dispatch.authority;
   if (trajectory->arms().size() > 1) {
@@ -51,6 +52,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
 void Motions::grant(const Grant& grant) {
   Motion& motion = motions_.at(grant.job);
   motion.authority = grant.authority;
+  motion.granted_max = std::max(motion.granted_max, motion.authority);
   if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
   command(motion.trajectory->arms().front(), ArmCommand::Extend{grant.authority});
 }
@@ -82,21 +84,10 @@ void Motions::tick_arms(TimePoint now) {
     const ArmFeedback& feedback = arm.link.feedback();
     const bool moves = feedback.phase == Phase::moving || feedback.phase == Phase::braking;
     arm.advances = feedback.measured_progress != before && moves;
-    const auto& joints = arm.controller->joints();
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      measured_[static_cast<Eigen::Index>(joints[j].index())] =
-          feedback.measured[static_cast<Eigen::Index>(j)];
-    }
-  }
-}
-
-Configuration Motions::true_positions() const {
-  Configuration q = measured_;
-  for (const LinkedArm& arm : arms_) {
+    set_joints(measured_, arm.controller->joints(), feedback.measured);
     const Eigen::VectorXd* truth = arm.controller->true_positions();
-    if (truth != nullptr) set_joints(q, arm.controller->joints(), *truth);
+    set_joints(truth_, arm.controller->joints(), truth == nullptr ? feedback.measured : *truth);
   }
-  return q;
 }
 
 const std::vector<MotionReport>& Motions::tick(TimePoint now) {
@@ -141,6 +132,11 @@ void Motions::report(JobId job, Motion& motion) {
     farthest = std::max(farthest, said.measured_progress);
     rests_at = rests_at && said.rests_at ? std::min(rests_at, said.rests_at) : std::nullopt;
   }
+  // The monitor acts on an arm that passes its authority. The scheduler, which never granted that,
+  // sees the arm at its authority.
+  progress = std::min(progress, motion.granted_max);
+  farthest = std::min(farthest, motion.granted_max);
+  if (rests_at) rests_at = std::min(*rests_at, motion.granted_max);
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
     motion.resting = true;
@@ -170,6 +166,13 @@ bool Motions::all_at_rest() const {
 }
 bool Motions::all_settled() const {
   return std::ranges::all_of(arms_, [](const auto& arm) { return arm.link.feedback().settled; });
+}
+
+Duration Motions::granted(ArmId arm) const {
+  for (const auto& [job, motion] : motions_) {
+    if (std::ranges::count(motion.trajectory->arms(), arm) > 0) return motion.granted_max;
+  }
+  return {};
 }
 
 TrajectoryPtr Motions::trajectory(ArmId arm) const {

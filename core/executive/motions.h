@@ -40,8 +40,9 @@ class Motions {
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return link(arm).feedback(); }
   [[nodiscard]] const ArmLink& link(ArmId arm) const { return arms_[arm.index()].link; }
-  // Positions of all joints as they really are, where arms are simulated; else as measured.
-  [[nodiscard]] Configuration true_positions() const;
+  // Positions of all joints in the last tick as they really were, where arms are simulated; else as
+  // measured.
+  [[nodiscard]] const Configuration& true_positions() const { return truth_; }
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return arms_[arm.index()].advances; }
@@ -51,6 +52,8 @@ class Motions {
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
+  // Returns the largest authority granted to the arm's motion so far; zero without a motion.
+  [[nodiscard]] Duration granted(ArmId arm) const;
   // Returns null if the arm has no motion.
   [[nodiscard]] TrajectoryPtr trajectory(ArmId arm) const;
   // An arm of a motion under way; times are trajectory time. under_way() returns them in order of
@@ -68,6 +71,7 @@ class Motions {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration> stands_at{};  // measured, after a brake
     Duration authority{};
+    Duration granted_max{};  // largest authority so far
     // For motions of several arms: largest lead of an arm's authority over the last arm.
     Duration ahead_max{};
     Duration handed_on{};
@@ -91,6 +95,7 @@ class Motions {
   CellPtr cell_;
   std::vector<LinkedArm> arms_;  // by ArmId
   Configuration measured_;
+  Configuration truth_;
   std::map<JobId, Motion> motions_;
   std::vector<MotionReport> reports_;
 };

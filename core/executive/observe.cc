@@ -1,5 +1,6 @@
 #include "core/executive/observe.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace armloom {
@@ -23,7 +24,9 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .motion = std::move(motion),
         .measured = feedback.measured_progress,
         .commanded = feedback.commanded_progress,
-        .authority = position.at_rest ? feedback.measured_progress : position.authority,
+        // Not the guard's: the guard raises it to the measured progress.
+        .authority = position.at_rest ? feedback.measured_progress
+                                      : std::max(motions.granted(arm), feedback.authority),
         .rests = rests,
         .brakes = brakes,
         .rests_at = feedback.rests_at,
