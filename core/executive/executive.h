@@ -68,6 +68,9 @@ class Observer {
   virtual void on_event(const Event& event) = 0;
   // Called in every control cycle; must be fast.
   virtual void on_tick(TimePoint now, const Configuration& measured) = 0;
+  // Called after on_tick() with the true positions of simulated arms. They differ from `measured`
+  // if reports are late, lost, noisy or false. Other arms: as measured.
+  virtual void on_truth(TimePoint /*now*/, const Configuration& /*positions*/) {}
   // Called before on_tick() when the last moving arm has come to rest (true), or an arm moves again
   // (false). Arms are assumed to move initially.
   virtual void on_rest(bool /*at_rest*/) {}
@@ -123,6 +126,7 @@ struct ExecutiveOptions {
   JobId first_job{1};          // the first client job of this session
   StartLog* starts = nullptr;  // outlives the executive; may be null
   InputLog* inputs = nullptr;  // likewise
+  bool monitored = true;       // for tests: false switches the monitor off
   // For tests: from this time on only the controllers run, as if the executive had died.
   std::optional<TimePoint> dies_at = {};
 };

@@ -51,7 +51,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                [this](JobId job) { publisher_.tell_job(publisher_.view(job), clock_.now); }}),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
-      clock_{.dies_at = options.dies_at, .inputs = options.inputs},
+      clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
                   execution_.starts(), scene_},
                  observer),
@@ -202,7 +202,7 @@ void Executive::Impl::tick(TimePoint now) {
   forget_rolled_back();
   count_.motion(motions);
   watch_links();
-  if (watch_.is_due(now)) watch();
+  if (clock_.monitored && watch_.is_due(now)) watch();
   publisher_.tell_queue(now);
   publisher_.tell_scene(now);
   publisher_.tell_arms(now);
@@ -227,7 +227,8 @@ TimePoint Executive::Impl::settled_until() const {
 // A motion that ended away from its goal has failed.
 void Executive::Impl::take(const MotionReport& report) {
   const Job* job = scheduler_.find(report.job);
-  if (report.kind != MotionReport::Kind::finished || job == nullptr) return step(report);
+  const bool is_watched = clock_.monitored && job != nullptr;
+  if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();
   std::vector<MonitorFinding> found;
   for (const ArmId arm : job->trajectory->arms()) {

@@ -69,7 +69,8 @@ class Executive::Impl {
     std::optional<TimePoint> wake_at = {};  // requested by the scheduler
     HoldToRun held = {};                    // jobs that end with their lease
     bool quiet = false;  // in the last cycle all arms were settled and there was no report
-    std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
+    bool monitored = true;                  // ExecutiveOptions
+    std::optional<TimePoint> dies_at = {};  // likewise
     std::uint64_t ticks = 0;
     InputLog* inputs = nullptr;  // receives the inputs between the ticks
     TimePoint shows_check_at{};  // next publication of a check's progress

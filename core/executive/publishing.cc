@@ -63,6 +63,7 @@ void Publisher::tell_tick(TimePoint now) {
   }
   publish(now);
   observer_.on_tick(now, shown_.motions.measured());
+  observer_.on_truth(now, shown_.motions.true_positions());
 }
 
 void Publisher::tell_arms(TimePoint now) {
