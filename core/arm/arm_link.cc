@@ -128,7 +128,10 @@ void ArmLink::synchronize(const ArmFeedback& first) {
   number_ = first.acknowledged;
   released_ = 0;
   fastest_.reset();
-  if (motion_ && motion_->number > number_) motion_->is_lost = true;
+  if (!motion_ || motion_->number <= number_) return;
+  motion_->lost = heard_.acknowledged >= motion_->number
+                      ? "the controller has lost its motion: it was restarted"
+                      : "the connection broke before the controller accepted the motion";
 }
 
 void ArmLink::hear(const ArmFeedback& report, TimePoint now) {
@@ -190,9 +193,9 @@ void ArmLink::interpret() {
     return;
   }
   if (motion_->is_dropped) return rest(Phase::stopped, motion_->from);
-  if (motion_->is_lost) {
+  if (!motion_->lost.empty()) {
     rest(Phase::fault, motion_->from);
-    seen_.detail = "the connection broke before the controller accepted the motion";
+    seen_.detail = motion_->lost;
   } else if (motion_->number == 0 || heard_.acknowledged < motion_->number) {
     rest(Phase::waiting, motion_->from);
   } else if (heard_.rejected == motion_->number) {

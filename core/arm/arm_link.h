@@ -83,7 +83,9 @@ class ArmLink {
     Duration authority;        // as commanded last
     CommandNumber number = 0;  // 0: not sent
     bool is_dropped = false;   // braked before it was sent
-    bool is_lost = false;      // the connection broke before it was acknowledged
+    // Why the controller does not have it any more: the connection broke before the controller
+    // accepted it, or the controller was restarted. Empty if it was not lost.
+    std::string lost = {};
   };
   std::optional<Motion> motion_;
   CommandNumber released_ = 0;  // number of the last release
