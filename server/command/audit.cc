@@ -67,20 +67,23 @@ int audit_recording(const AuditOptions& options) {
     return kExitBadInput;
   }
   std::vector<std::string> warnings;
-  const auto states = read_states(std::filesystem::path(options.recording) / "states.csv",
-                                  *loaded->cell, &warnings);
+  const auto states = read_true_states(options.recording, *loaded->cell, &warnings);
   if (!states) {
     complain(options.recording, states.error());
     return kExitBadInput;
   }
   for (const std::string& warning : warnings) std::cerr << "armloom: warning: " << warning << '\n';
   const auto report = [&] {
-    const Progress progress("audit of " + std::to_string(states->size()) + " states");
-    return audit(*loaded->cell, *states, from_seconds(options.step_s));
+    const Progress progress("audit of " + std::to_string(states->states.size()) + " states");
+    return audit(*loaded->cell, states->states, from_seconds(options.step_s));
   }();
   if (!report) {
     complain(options.cell_file, report.error());
     return kExitBadInput;
+  }
+  if (states->true_from) {
+    std::cout << "true positions of simulated arms from " << to_seconds(*states->true_from)
+              << " s on (" << kTrueStates << "), measured ones before\n";
   }
   print_report(*report);
   return report->first_contact ? kExitFound : kExitDone;

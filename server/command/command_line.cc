@@ -335,8 +335,10 @@ Command audit_command(CLI::App& app) {
       app.add_subcommand("audit", "check a recording for contacts, independently of the server");
   add_cell(*command, options->cell_file);
   command
-      ->add_option("--recording", options->recording,
-                   "folder of the recording; must contain states.csv")
+      ->add_option(
+          "--recording", options->recording,
+          "folder of the recording; must contain states.csv. If it has true_states.csv, the "
+          "true positions of simulated arms are checked instead of measured ones")
       ->required();
   command
       ->add_option("--step", options->step_s,

@@ -30,6 +30,9 @@ class Watcher final : public Observer {
     progress_.cell_time(to_seconds(now));
     if (recording_ != nullptr) recording_->state(now, measured);
   }
+  void on_truth(TimePoint now, const Configuration& positions) override {
+    if (recording_ != nullptr) recording_->truth(now, positions);
+  }
   void on_rest(bool at_rest) override {
     if (recording_ != nullptr) recording_->at_rest(at_rest);
   }

@@ -48,6 +48,9 @@ class Broadcast final : public Observer {
 
   void on_event(const Event& event) override;
   void on_tick(TimePoint now, const Configuration& measured) override;
+  void on_truth(TimePoint now, const Configuration& positions) override {
+    if (parts_.recording != nullptr) parts_.recording->truth(now, positions);
+  }
   void on_rest(bool at_rest) override;
   void on_stops(const std::vector<ArmId>& stopped) override;
   void on_judged(std::uint64_t evaluations) override { parts_.metrics.judged(evaluations); }

@@ -11,8 +11,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Files of a recording, without the copies.
-constexpr std::array<std::string_view, 6> kFiles = {"events.jsonl", "states.csv", "states_idle.csv",
-                                                    "cell.json",    "jobs.json",  "inputs.jsonl"};
+constexpr std::array<std::string_view, 8> kFiles = {
+    "events.jsonl",         "states.csv", "states_idle.csv", "true_states.csv",
+    "true_states_idle.csv", "cell.json",  "jobs.json",       "inputs.jsonl"};
 
 // "2026-11-21T09-33-00Z", "2026-11-21T09-33-00Z.2"
 bool is_name_of_recording(const std::string& name) {

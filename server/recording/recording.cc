@@ -55,6 +55,9 @@ Result<std::unique_ptr<Recording>> Recording::create(const fs::path& folder, con
     fs::remove(folder / "states.csv", ec);  // of an earlier recording
     fs::remove(idle_file_of(folder / "states.csv"), ec);
   }
+  fs::remove(folder / kTrueStates, ec);
+  fs::remove(idle_file_of(folder / kTrueStates), ec);
+  recording->cell_ = &cell;
   return recording;
 }
 
@@ -86,6 +89,17 @@ void Recording::event(std::string_view json) {
   if (!events_) note_fault("events.jsonl");
 }
 
+void Recording::truth(TimePoint time, const Configuration& q) {
+  if (!states_ || (!truth_ && q == measured_)) return;
+  errno = 0;
+  if (!truth_) {
+    truth_.emplace(folder_ / kTrueStates, *cell_);
+    truth_->at_rest(at_rest_);
+  }
+  truth_->write(time, q);
+  if (!truth_->good()) note_fault("true_states.csv");
+}
+
 void Recording::jobs_file(std::string_view text) {
   errno = 0;
   std::ofstream file(folder_ / "jobs.json", std::ios::binary);
@@ -109,6 +123,7 @@ void Recording::close() {
   events_.close();
   if (!events_) note_fault("events.jsonl");
   if (states_ && !states_->close()) note_fault("states.csv");
+  if (truth_ && !truth_->close()) note_fault("true_states.csv");
   if (!jobs_open_) return;
   jobs_ << "\n]\n";
   jobs_.close();

@@ -233,4 +233,20 @@ Result<std::vector<RecordedState>> read_states(const std::filesystem::path& file
   return StatesReader(file, cell, warnings).read();
 }
 
+Result<TrueStates> read_true_states(const std::filesystem::path& folder, const Cell& cell,
+                                    std::vector<std::string>* warnings) {
+  auto measured = read_states(folder / "states.csv", cell, warnings);
+  if (!measured) return failure(std::move(measured.error()));
+  TrueStates all{std::move(*measured), std::nullopt};
+  if (!std::filesystem::exists(folder / kTrueStates)) return all;
+  auto truth = read_states(folder / kTrueStates, cell, warnings);
+  if (!truth) return failure(std::move(truth.error()));
+  all.true_from = truth->front().time;
+  std::erase_if(all.states,
+                [&](const RecordedState& state) { return state.time >= *all.true_from; });
+  all.states.insert(all.states.end(), std::make_move_iterator(truth->begin()),
+                    std::make_move_iterator(truth->end()));
+  return all;
+}
+
 }  // namespace armloom

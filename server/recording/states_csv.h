@@ -55,6 +55,9 @@ class StatesWriter {
   Configuration held_q_;
 };
 
+// File of a recording for the true positions, in the format of states.csv (Recording).
+inline constexpr const char* kTrueStates = "true_states.csv";
+
 // Reads states.csv strictly: a column for each joint of the cell (in any order, no others), finite
 // numbers, increasing times. Problems name "states.csv:LINE" and the column. `warnings`, if given,
 // gets up to ten sentences: on gaps that are not idle stretches, on motion or missing rows in idle
@@ -62,5 +65,17 @@ class StatesWriter {
 [[nodiscard]] Result<std::vector<RecordedState>> read_states(
     const std::filesystem::path& file, const Cell& cell,
     std::vector<std::string>* warnings = nullptr);
+
+// What really happened in a recording.
+struct TrueStates {
+  std::vector<RecordedState> states;
+  // The states are measured before this time, and true from then on; nullopt if all are measured.
+  std::optional<TimePoint> true_from;
+};
+// Reads true_states.csv, and states.csv for the time before. Problems and warnings: those of
+// read_states().
+[[nodiscard]] Result<TrueStates> read_true_states(const std::filesystem::path& folder,
+                                                  const Cell& cell,
+                                                  std::vector<std::string>* warnings = nullptr);
 
 }  // namespace armloom

@@ -38,6 +38,7 @@ TEST_F(Simulate, PrintsASummaryAndRepeatsByteForByte) {
               read_text_file(folder_ / "b" / name).value())
         << name;
   }
+  EXPECT_FALSE(fs::exists(folder_ / "a/true_states.csv")) << "feedback is true";
   const Outcome audit = run("audit --cell " + (folder_ / "a/cell.json").string() + " --recording " +
                             (folder_ / "a").string());
   EXPECT_EQ(audit.exit_code, 0) << audit.err;
@@ -60,6 +61,32 @@ TEST_F(Simulate, FaultsOnlyCostTime) {
   EXPECT_EQ(with.last_line()["jobs"]["succeeded"], 4);
   EXPECT_EQ(with.last_line()["monitor_stops"], 0);
   EXPECT_GT(with.last_line()["makespan_s"], without.last_line()["makespan_s"].get<double>() + 4.0);
+}
+
+TEST_F(Simulate, RecordsTruePositionsThatFeedbackHidesAndAuditChecksThem) {
+  const std::string faults =
+      file("faults.json",
+           R"([{"at_s": 1, "arm": "left", "kind": "noise", "value": 0.0002, "for_s": 0.5}])")
+          .string();
+  const fs::path recording = folder_ / "recording";
+  const std::string audit = "audit --cell " + kCell + " --recording " + recording.string();
+  (void)run("simulate --cell " + kCell + " --jobs " + conflicting_jobs().string() + " --faults " +
+            faults + " --out " + recording.string());
+  const std::string truth = read_text_file(recording / "true_states.csv").value();
+  EXPECT_EQ(truth.substr(truth.find('\n') + 1, 6), "1.000,");
+  const Outcome whole = run(audit);
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_NE(whole.out.find("true positions of simulated arms from 1 s on"), std::string::npos);
+
+  // Both arms reach through each other, in truth only.
+  constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
+  std::string row = "1000";
+  for (int arm = 0; arm < 2; ++arm) {
+    for (const double q : kReaching) row += "," + std::to_string(q);
+    row += ",0";
+  }
+  std::ofstream(recording / "true_states.csv", std::ios::app) << row << '\n';
+  EXPECT_EQ(run(audit).exit_code, 1);
 }
 
 // The left arm faults just before its goal, and the right arm's job waits up to 10 min. The run
@@ -100,7 +127,7 @@ TEST_F(Simulate, ReportsBadFaultsFilesWithPlaceAndValue) {
       {R"([{"arm": "left", "kind": "stall"}])", "faults.json:/0/at_s: "},
       {R"([{"at_s": 0, "arm": "middle", "kind": "stall"}])",
        "faults.json:/0/arm: the cell has no arm"},
-      {R"([{"at_s": 0, "arm": "left", "kind": "drift"}])", "faults.json:/0/kind: "},
+      {R"([{"at_s": 0, "arm": "left", "kind": "hiccup"}])", "faults.json:/0/kind: "},
       {R"([{"at_s": 0, "arm": "left", "kind": "slow", "value": 2}])", "faults.json:/0/value: 2"},
       {R"([{"at_s": -1, "arm": "left", "kind": "stall"}])", "faults.json:/0/at_s: -1"},
   };
