@@ -4,42 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "core/model/cell/build_cell.h"
-#include "server/codec/cell_codec.h"
-#include "test/scenarios/star.h"
-#include "test/scenarios/team_world.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-
-CellDescription sliders(Random& random) {
-  if (random.chance(0.7)) return team_cell(random);
-  CellDescription cell = crossing_description();
-  cell.scheduling.on_idle_blocker =
-      random.chance(0.5) ? OnIdleBlocker::park : OnIdleBlocker::replan;
-  cell.scheduling.backlog_timeout = from_seconds(random.uniform(5.0, 40.0));
-  return cell;
-}
-
-CellDescription pandas(Random& random) {
-  std::ifstream file(source_dir() + "/config/two_pandas.json");
-  std::ostringstream text;
-  text << file.rdbuf();
-  auto cell = read_cell_text(text.str(), source_dir() + "/config");
-  if (!cell) throw std::runtime_error(cell.error().front().detail);
-  cell->scheduling.on_idle_blocker = std::vector{OnIdleBlocker::report, OnIdleBlocker::park,
-                                                 OnIdleBlocker::replan}[random.index(3)];
-  cell->scheduling.backlog_timeout = from_seconds(random.uniform(10.0, 100.0));
-  return *cell;
-}
 
 }  // namespace
 
@@ -67,16 +41,13 @@ struct Soak::Watch final : Observer {
   std::string first;
 };
 
-Soak::Soak(std::uint64_t seed, World world, const std::string& policy)
+Soak::Soak(std::uint64_t seed, RandomWorld world, const std::string& policy)
     : random_(seed), policy_(policy), watch_(std::make_unique<Watch>()) {
-  const CellDescription description = world == World::sliders ? sliders(random_) : pandas(random_);
-  auto cell = build_cell(description);
+  auto cell = build_cell(random_cell(world, random_));
   if (!cell) throw std::runtime_error(cell.error().front().detail);
   cell_ = *cell;
-  for (const armloom::Arm& arm : cell_->arms) {
-    Arm& own = arms_.emplace_back(Arm{arm.name, {}, {arm.home.begin(), arm.home.end()}, 1.1});
-    for (const JointId joint : arm.joints) own.joints.push_back(cell_->joint(joint).name);
-  }
+  jobs_ =
+      std::make_unique<RandomJobs>(*cell_, random_, [this]() -> Executive& { return executive(); });
   may_fault_ = random_.chance(0.25);
   may_see_objects_ = random_.chance(0.25);
   start(1, {});
@@ -95,108 +66,6 @@ void Soak::start(std::uint64_t first_job, std::vector<RestoredJob> left) {
 
 // ---- Jobs ----
 
-std::vector<double> Soak::anywhere(const Arm& arm) {
-  std::vector<double> q = arm.home;
-  if (random_.chance(0.15)) return q;
-  const bool slides = q.size() == 1;
-  for (double& position : q) {
-    position =
-        slides ? random_.uniform(-1.2, 1.2) : position + random_.uniform(-arm.spread, arm.spread);
-  }
-  return q;
-}
-
-std::vector<double> Soak::predicted(std::size_t arm) {
-  const Snapshot now = executive().snapshot(0);
-  std::vector<double> q = now.arms[arm].q;
-  for (const JobView& job : now.jobs) {
-    const auto known = ends_.find(job.key);
-    if (known != ends_.end() && !known->second[arm].empty()) q = known->second[arm];
-  }
-  return q;
-}
-
-std::string Soak::any_job() {
-  const Snapshot now = executive().snapshot(5);
-  return now.jobs.empty() ? "" : now.jobs[random_.index(now.jobs.size())].key;
-}
-
-std::vector<std::size_t> Soak::some_arms(std::size_t most) {
-  std::vector<std::size_t> all;
-  for (std::size_t a = 0; a < arms_.size(); ++a) all.push_back(a);
-  for (std::size_t a = 0; a < all.size(); ++a) {
-    std::swap(all[a], all[a + random_.index(all.size() - a)]);
-  }
-  all.resize(std::min(most, all.size()));
-  return all;
-}
-
-JobRequest Soak::motion(const std::vector<std::size_t>& arms) {
-  JobRequest request{.key = "", .name = "", .trajectory = {}};
-  std::vector<double> from, to;
-  for (const std::size_t arm : arms) {
-    const auto& joints = arms_[arm].joints;
-    request.trajectory.joint_names.insert(request.trajectory.joint_names.end(), joints.begin(),
-                                          joints.end());
-    std::vector<double> begins = predicted(arm);
-    if (random_.chance(0.05)) begins = anywhere(arms_[arm]);
-    if (random_.chance(0.1)) begins[0] += random_.uniform(-0.008, 0.008);
-    const std::vector<double> ends = anywhere(arms_[arm]);
-    from.insert(from.end(), begins.begin(), begins.end());
-    to.insert(to.end(), ends.begin(), ends.end());
-  }
-  double farthest = 0.0;
-  for (std::size_t j = 0; j < from.size(); ++j)
-    farthest = std::max(farthest, std::abs(to[j] - from[j]));
-  const std::vector<double> zero(from.size(), 0.0);
-  const double takes_s = random_.uniform(1.1, 3.0) * std::max(0.5, farthest);
-  request.trajectory.points = {{from, zero, zero, 0.0}, {to, zero, zero, takes_s}};
-  if (random_.chance(0.3)) request.terms.move_to_start = MoveToStart::plan;
-  return request;
-}
-
-// Returns a motion out and back for either of two arms.
-JobRequest Soak::loop() {
-  JobRequest request{.key = "", .name = "", .trajectory = {}};
-  for (const std::size_t arm : some_arms(2)) {
-    JobRequest one = motion({arm});
-    auto& points = one.trajectory.points;
-    points.push_back(points.front());
-    points.back().time_from_start_s = 2 * points[1].time_from_start_s;
-    request.alternatives.push_back(std::move(one.trajectory));
-  }
-  return request;
-}
-
-JobRequest Soak::goal() {
-  JobRequest request{.key = "", .name = "", .trajectory = {}};
-  const std::vector<std::size_t> arms = some_arms(random_.chance(0.25) ? 2 : 1);
-  request.move_to = PlanGoal{.joints = anywhere(arms_[arms.front()]), .named = {}, .pose = {}};
-  if (arms.size() == 1) {
-    request.arm = arms_[arms.front()].name;
-  } else {
-    for (const std::size_t arm : arms) request.arms.push_back(arms_[arm].name);
-  }
-  return request;
-}
-
-JobRequest Soak::any_request() {
-  const double what = random_.uniform(0.0, 1.0);
-  JobRequest request = what < 0.50   ? motion(some_arms(1))
-                       : what < 0.60 ? motion(some_arms(2))
-                       : what < 0.70 ? loop()
-                                     : goal();
-  request.key = "s" + std::to_string(next_++);
-  if (random_.chance(0.3)) request.terms.priority = static_cast<int>(random_.index(3)) - 1;
-  if (random_.chance(0.2)) request.terms.on_timeout = OnTimeout::replan;
-  if (random_.chance(0.2)) request.terms.reorderable = true;
-  if (random_.chance(0.1)) {
-    const std::string before = any_job();
-    if (!before.empty()) request.after = {before};
-  }
-  return request;
-}
-
 void Soak::submit(JobRequest request) {
   const JobRequest copy = request;
   note(executive().submit(std::move(request)), copy);
@@ -206,16 +75,7 @@ void Soak::note(const Result<JobView>& accepted, const JobRequest& request) {
   if (!accepted) return;
   ++tally_->jobs;
   requests_[accepted->key] = request;
-  auto& ends = ends_[accepted->key];
-  ends.resize(arms_.size());
-  for (std::size_t arm = 0; arm < arms_.size(); ++arm) {
-    if (request.move_to && request.arm == arms_[arm].name) ends[arm] = *request.move_to->joints;
-    const auto& names = request.trajectory.joint_names;
-    const auto first = std::ranges::find(names, arms_[arm].joints.front());
-    if (first == names.end()) continue;
-    const auto at = request.trajectory.points.back().positions.begin() + (first - names.begin());
-    ends[arm].assign(at, at + static_cast<std::ptrdiff_t>(arms_[arm].joints.size()));
-  }
+  jobs_->accepted(accepted->key, request);
 }
 
 // ---- Commands ----
@@ -223,21 +83,21 @@ void Soak::note(const Result<JobView>& accepted, const JobRequest& request) {
 void Soak::command() {
   ++tally_->commands;
   const std::size_t what = random_.index(100);
-  const ArmId arm{static_cast<std::uint32_t>(random_.index(arms_.size()))};
-  if (what < 52) return submit(any_request());
+  const ArmId arm{static_cast<std::uint32_t>(random_.index(jobs_->arms().size()))};
+  if (what < 52) return submit(jobs_->any());
   if (what < 56) {
-    std::vector<JobRequest> jobs{any_request(), any_request()};
+    std::vector<JobRequest> jobs{jobs_->any(), jobs_->any()};
     const std::vector<JobRequest> copy = jobs;
     const auto answers = submit_batch(executive(), std::move(jobs), random_.chance(0.5));
     for (std::size_t i = 0; answers && i < copy.size(); ++i) note((*answers)[i], copy[i]);
   } else if (what < 66) {
-    (void)executive().cancel(any_job());
+    (void)executive().cancel(jobs_->any_job());
   } else if (what < 71) {
-    (void)executive().replan(any_job());
+    (void)executive().replan(jobs_->any_job());
   } else if (what < 75) {
     (void)executive().amend(
-        any_job(), {.terms = {.priority = static_cast<int>(random_.index(5)) - 2,
-                              .backlog_timeout = from_seconds(random_.uniform(1.0, 60.0))}});
+        jobs_->any_job(), {.terms = {.priority = static_cast<int>(random_.index(5)) - 2,
+                                     .backlog_timeout = from_seconds(random_.uniform(1.0, 60.0))}});
   } else if (what < 79) {
     random_.chance(0.4) ? stop_all(executive(), "soak") : executive().stop({arm}, "soak");
   } else if (what < 91) {
@@ -260,7 +120,7 @@ void Soak::change_scene() {
   disturbed_ = true;
   CollisionObject ball{.name = "ball", .shape = Sphere{0.05}};
   for (int axis = 0; axis < 3; ++axis) ball.X_WO.translation()[axis] = random_.uniform(-0.8, 0.8);
-  if (arms_.front().joints.size() == 1) ball.X_WO.translation().z() = 0.0;
+  if (jobs_->arms().front().joints.size() == 1) ball.X_WO.translation().z() = 0.0;
   LiveScene& scene = executive().scene();
   const bool is_there = std::ranges::any_of(
       scene.objects(), [](const CollisionObject& object) { return object.name == "ball"; });
@@ -275,7 +135,7 @@ void Soak::inject() {
   const std::vector<ArmFault::Kind> kinds{ArmFault::Kind::stall, ArmFault::Kind::slow,
                                           ArmFault::Kind::late_start, ArmFault::Kind::drop_feedback,
                                           ArmFault::Kind::fault};
-  (void)executive().faults().inject({.arm = arms_[random_.index(arms_.size())].name,
+  (void)executive().faults().inject({.arm = jobs_->arms()[random_.index(jobs_->arms().size())].name,
                                      .kind = kinds[random_.index(kinds.size())],
                                      .lasting = from_seconds(random_.uniform(0.1, 3.0)),
                                      .value = random_.uniform(0.1, 1.0)});

@@ -9,7 +9,7 @@
 #include "core/executive/active_policy.h"
 #include "core/executive/simulation.h"
 #include "core/model/cell_description.h"
-#include "test/scenarios/random_faults.h"
+#include "test/scenarios/random_jobs.h"
 
 namespace armloom {
 
@@ -25,14 +25,12 @@ struct SoakTally {
 };
 
 // Random sequences of commands, determined by a seed, with two to four sliders or two Pandas:
-// - jobs with trajectories, goals, alternatives and moves to their start, for one arm or several,
-//   and batches;
+// - jobs (RandomJobs) and batches;
 // - cancel, stop, resume, replan, PATCH and policy changes;
 // - objects, faults and restarts.
 class Soak {
  public:
-  enum class World { sliders, pandas };
-  Soak(std::uint64_t seed, World world, const std::string& policy);
+  Soak(std::uint64_t seed, RandomWorld world, const std::string& policy);
   ~Soak();
 
   // Runs and adds the results to the tally. With `expects`, a broken promise fails the test.
@@ -40,23 +38,8 @@ class Soak {
 
  private:
   struct Watch;
-  struct Arm {
-    std::string name;
-    std::vector<std::string> joints;
-    std::vector<double> home;
-    double spread;  // of random positions around home (rad, m), each joint
-  };
-
   void start(std::uint64_t first_job, std::vector<RestoredJob> left);
   Executive& executive() { return simulation_->executive(); }
-  [[nodiscard]] std::vector<double> anywhere(const Arm& arm);
-  [[nodiscard]] std::vector<double> predicted(std::size_t arm);
-  [[nodiscard]] std::string any_job();
-  [[nodiscard]] std::vector<std::size_t> some_arms(std::size_t most);
-  [[nodiscard]] JobRequest motion(const std::vector<std::size_t>& arms);
-  [[nodiscard]] JobRequest loop();
-  [[nodiscard]] JobRequest goal();
-  [[nodiscard]] JobRequest any_request();
   void submit(JobRequest request);
   void note(const Result<JobView>& accepted, const JobRequest& request);
   void command();
@@ -68,13 +51,10 @@ class Soak {
   Random random_;
   std::string policy_;
   CellPtr cell_;
-  std::vector<Arm> arms_;
+  std::unique_ptr<RandomJobs> jobs_;
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<Simulation> simulation_;
   std::map<std::string, JobRequest> requests_;  // by key
-  std::map<std::string, std::vector<std::vector<double>>>
-      ends_;  // by key and arm: where the job may leave the arm; empty if the job does not move it
-  std::uint64_t next_ = 1;
   bool may_fault_ = false, may_see_objects_ = false, disturbed_ = false;
   SoakTally* tally_ = nullptr;
 };

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kSliders = 15;
 constexpr std::uint64_t kPandas = 1;
 
-void soak(Soak::World world, const std::string& policy, std::uint64_t seeds) {
+void soak(RandomWorld world, const std::string& policy, std::uint64_t seeds) {
   const char* from = std::getenv("ARMLOOM_FIRST_SEED");
   const std::uint64_t first = from != nullptr ? std::stoull(from) : 1;
   // test/guard/faults.py counts refusals itself
@@ -46,10 +46,10 @@ INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
                                            "reservation", "lockstep", "sequential"));
 
 TEST_P(SoakOfCommands, SlidersKeepAllPromises) {
-  soak(Soak::World::sliders, GetParam(), seed_count(kSliders));
+  soak(RandomWorld::sliders, GetParam(), seed_count(kSliders));
 }
 TEST_P(SoakOfCommands, PandasKeepAllPromises) {
-  soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10));
+  soak(RandomWorld::pandas, GetParam(), seed_count(kPandas, 10));
 }
 
 // Seeds that once failed. Causes: an arm at rest next to a synchronous motion, an endless loop, a
@@ -59,7 +59,7 @@ TEST(Soak, PassesSeedsThatOnceFailed) {
            {"coordinated", 7000447}, {"certified", 21000112}, {"coordinated", 20000387}}) {
     SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
     SoakTally tally;
-    Soak(seed, Soak::World::sliders, policy).run(tally);
+    Soak(seed, RandomWorld::sliders, policy).run(tally);
     EXPECT_EQ(tally.runs, 1U);
   }
 }
