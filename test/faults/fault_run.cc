@@ -133,7 +133,7 @@ class FaultRun {
     CellDescription description = random_cell(plan.world, random_);
     for (RobotDescription& robot : description.robots) {
       if (plan.faulty) break;
-      robot.controller.noise_rad = 0.15 * description.checking.tracking_error_rad;
+      robot.controller.noise_rad = 0.1 * description.checking.tracking_error_rad;
       robot.controller.lag = from_seconds(random_.uniform(0.0, 0.05));
     }
     auto cell = build_cell(description);
@@ -147,7 +147,7 @@ class FaultRun {
     if (!created) throw std::runtime_error(created.error().front().detail);
     simulation_ = std::move(*created);
     jobs_ = std::make_unique<RandomJobs>(
-        *cell_, random_, [this]() -> Executive& { return executive(); }, plan.faulty ? 0.008 : 0.0);
+        *cell_, random_, [this]() -> Executive& { return executive(); }, !plan.faulty);
     simulation_->tick();
     strikes_at_ = at(from_seconds(random_.uniform(1.0, 0.5 * to_seconds(plan.jobs_for))));
   }
