@@ -18,10 +18,11 @@ struct Reach {
   Configuration shift;
   Configuration error;  // >= 0
   // Bounds of the progress at each time t from now on, counted from `from`: at least
-  // rate_low * t - slack, at most rate_high * t + slack.
+  // rate_low * t - slack - late, at most rate_high * t + slack.
   double rate_low = 0.0;
   double rate_high = 1.0;
   Duration slack{};
+  Duration late{};
 
   [[nodiscard]] bool moves() const { return motion && from < to; }
 };

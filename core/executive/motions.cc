@@ -32,6 +32,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
   Motion& motion = motions_[dispatch.job];
   motion.trajectory = trajectory;
   motion.authority = dispatch.authority;
+  motion.granted_max = std::max(motion.granted_max, motion.authority);
   motion.resting = motion.braking = false;
   motion.handed_on = dispatch.authority;
   if (trajectory->arms().size() > 1) {
@@ -53,6 +54,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
 void Motions::grant(const Grant& grant) {
   Motion& motion = motions_.at(grant.job);
   motion.authority = grant.authority;
+  motion.granted_max = std::max(motion.granted_max, motion.authority);
   if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
   command(motion.trajectory->arms().front(), ArmCommand::Extend{grant.authority});
 }
@@ -148,6 +150,11 @@ void Motions::report(JobId job, Motion& motion) {
     farthest = std::max(farthest, said.measured_progress);
     rests_at = rests_at && said.rests_at ? std::min(rests_at, said.rests_at) : std::nullopt;
   }
+  // The monitor acts on an arm that passes its authority. The scheduler, which never granted that,
+  // sees the arm at its authority.
+  progress = std::min(progress, motion.granted_max);
+  farthest = std::min(farthest, motion.granted_max);
+  if (rests_at) rests_at = std::min(*rests_at, motion.granted_max);
   if (fault && !motion.braking) brake(job);
   if (all_rest) {
     motion.resting = true;
@@ -177,6 +184,13 @@ bool Motions::all_at_rest() const {
 }
 bool Motions::all_settled() const {
   return std::ranges::all_of(arms_, [](const auto& arm) { return arm.link.feedback().settled; });
+}
+
+Duration Motions::granted(ArmId arm) const {
+  for (const auto& [job, motion] : motions_) {
+    if (std::ranges::count(motion.trajectory->arms(), arm) > 0) return motion.granted_max;
+  }
+  return {};
 }
 
 TrajectoryPtr Motions::trajectory(ArmId arm) const {

@@ -60,6 +60,8 @@ class Motions {
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
+  // Returns the largest authority granted to the arm's motion so far; zero without a motion.
+  [[nodiscard]] Duration granted(ArmId arm) const;
   // Returns null if the arm has no motion.
   [[nodiscard]] TrajectoryPtr trajectory(ArmId arm) const;
   // An arm of a motion under way; times are trajectory time. under_way() returns them in order of
@@ -77,6 +79,7 @@ class Motions {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration> stands_at{};  // measured, after a brake
     Duration authority{};
+    Duration granted_max{};  // largest authority so far
     // For motions of several arms: largest lead of an arm's authority over the last arm.
     Duration ahead_max{};
     Duration out_of_step{};

@@ -1,5 +1,6 @@
 #include "core/executive/observe.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace armloom {
@@ -20,16 +21,19 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
     // A finished arm's motion is released at once; a rejected one was never followed.
     if (feedback.phase == Phase::idle || feedback.phase == Phase::fault) motion = nullptr;
     seen.arms.push_back({
+        .is_connected = link.state() != ArmLink::State::connecting,
         .motion = std::move(motion),
         .measured = feedback.measured_progress,
         .commanded = feedback.commanded_progress,
-        .authority = position.at_rest ? feedback.measured_progress : position.authority,
+        // Not the guard's: the guard raises it to the measured progress.
+        .authority = position.at_rest ? feedback.measured_progress
+                                      : std::max(motions.granted(arm), feedback.authority),
         .rests = rests,
         .brakes = brakes,
         .told_to_brake = motions.told_to_brake(arm),
         .rests_at = feedback.rests_at,
         .off_path = position.off_path,
-        .feedback_age = link.state() == ArmLink::State::connecting ? Duration{} : link.age(),
+        .feedback_age = link.age(),
     });
   }
   return seen;

@@ -103,7 +103,7 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     off_path_[arm.index()] = std::move(off);
   }
   const std::optional<double> rate = rate_of(arm, seen);
-  reach.slack = period_ + controller.reaction;  // the arm follows its commands that much later
+  reach.slack = period_;
   result.braking = reach;
   result.braking.to = std::max(reach.from, brakes_to);
   result.going = std::move(reach);
@@ -112,6 +112,11 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   if (rate && *rate >= kRateChange) {
     result.going.rate_low = *rate - kRateChange;
     result.going.rate_high = std::min(1.0, *rate + kRateChange);
+    // An arm follows its commands with a first-order lag. It falls behind further until it is
+    // behind by lag * rate.
+    const Duration behind = now.commanded - now.measured;
+    const Duration lag = from_seconds(*rate * to_seconds(controller.lag));
+    result.going.late = std::max(Duration{}, lag - behind);
   }
   result.may_go_on = result.going.to > result.braking.to;
   if (!result.may_go_on) result.going = result.braking;

@@ -12,6 +12,7 @@ namespace armloom {
 
 // What the monitor knows of one arm in a period.
 struct ArmObservation {
+  bool is_connected = true;   // its controller has reported; if false, nothing else is known
   TrajectoryPtr motion = {};  // null if the arm has none
   Duration measured{};        // progress on the motion
   Duration commanded{};

@@ -108,6 +108,10 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
     ArmState& state = arms_[a];
     state.as_certified = true;
     state.deviation = 0.0;
+    if (!seen.arms[a].is_connected) {
+      state.rested = state.connected = false;
+      continue;
+    }
     check_feedback(arm, seen, found);
     if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
       check_path(arm, seen, found);
@@ -115,6 +119,7 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       check_stop(arm, seen, found);
     }
     state.last = seen.arms[a];
+    state.connected = true;
   }
   measured_ = seen.measured;
   time_ = seen.time;
@@ -155,7 +160,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
 
   // Positions that change faster than the joints can move.
   const TimePoint fresh_at = seen.time - now.feedback_age;
-  if (time_ && fresh_at > state.fresh_at) {
+  if (time_ && state.connected && fresh_at > state.fresh_at) {
     const double elapsed_s = to_seconds(fresh_at - state.fresh_at);
     // Measured with an error twice; an arm that starts off its path approaches it.
     const double slack = 2.0 * tracking_error(*cell_, arm) + now.off_path +

@@ -69,6 +69,7 @@ class PremiseCheck {
     std::vector<JointId> joints;  // of the arm and its gripper
     Configuration rest;           // by JointId, where each joint rests
     bool rested = false;          // in the last check
+    bool connected = false;       // likewise
     ArmObservation last;
     TimePoint fresh_at{};       // time of the last new feedback
     TimePoint changed_at{};     // when the positions last changed

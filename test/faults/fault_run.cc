@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 constexpr Duration kSample = 5ms;           // between audited states
 constexpr Duration kOperator = 100ms;       // between two looks of the operator
 constexpr Duration kReacts = 2s;            // of the operator
+constexpr Duration kWaits = 5s;             // for an arm to strike
 constexpr Duration kRemovesAfter = 15s;     // a fault that stops no arm
 constexpr Duration kPatience = 240s;        // after the last job
 constexpr std::size_t kStatesMax = 20'000;  // that are audited at once
@@ -132,7 +133,7 @@ class FaultRun {
     CellDescription description = random_cell(plan.world, random_);
     for (RobotDescription& robot : description.robots) {
       if (plan.faulty) break;
-      robot.controller.noise_rad = 0.15 * description.checking.tracking_error_rad;
+      robot.controller.noise_rad = 0.1 * description.checking.tracking_error_rad;
       robot.controller.lag = from_seconds(random_.uniform(0.0, 0.05));
     }
     auto cell = build_cell(description);
@@ -145,8 +146,8 @@ class FaultRun {
         *witness_);
     if (!created) throw std::runtime_error(created.error().front().detail);
     simulation_ = std::move(*created);
-    jobs_ = std::make_unique<RandomJobs>(*cell_, random_,
-                                         [this]() -> Executive& { return executive(); });
+    jobs_ = std::make_unique<RandomJobs>(
+        *cell_, random_, [this]() -> Executive& { return executive(); }, !plan.faulty);
     simulation_->tick();
     strikes_at_ = at(from_seconds(random_.uniform(1.0, 0.5 * to_seconds(plan.jobs_for))));
   }
@@ -179,7 +180,6 @@ class FaultRun {
                           .stops_of_faulty = witness_->stops_of_faulty,
                           .simulated = now().time_since_epoch(),
                           .fingerprint = witness_->fingerprint};
-    result.succeeded = succeeded_;
     for (const JobView& job : executive().snapshot().jobs) {
       if (job.state == JobState::succeeded) ++result.succeeded;
       if (is_terminal(job.state)) continue;
@@ -214,19 +214,31 @@ class FaultRun {
     jobs_->accepted(accepted->key, copy);
   }
 
-  // Strikes an arm in motion, if there is one within two seconds.
-  void strike() {
-    std::vector<std::string> arms;
+  // Returns the names of the arms in a state.
+  [[nodiscard]] std::vector<std::string> arms_in(ArmState state) {
+    std::vector<std::string> names;
     for (const ArmView& arm : executive().arms()) {
-      if (arm.state == ArmState::moving) arms.push_back(arm.name);
+      if (arm.state == state) names.push_back(arm.name);
     }
-    if (arms.empty() && now() < strikes_at_ + kReacts) return;
+    return names;
+  }
+
+  // Strikes where it hurts, if there is such an arm within some seconds: an arm that waits at its
+  // authority runs away; other faults strike arms in motion.
+  void strike() {
+    const auto& list = listed_faults();
+    if (next_fault_ == nullptr) {
+      next_fault_ = plan_.fault != nullptr ? plan_.fault : &list[random_.index(list.size())];
+    }
+    const ListedFault& fault = *next_fault_;
+    const bool runs_away = fault.faults.front().kind == ArmFault::Kind::runaway;
+    std::vector<std::string> arms = arms_in(runs_away ? ArmState::paused : ArmState::moving);
+    if (arms.empty() && now() < strikes_at_ + kWaits) return;
+    if (arms.empty()) arms = arms_in(ArmState::moving);
     if (arms.empty()) arms.push_back(jobs_->arms().front().name);
     const std::string arm = arms[random_.index(arms.size())];
+    next_fault_ = nullptr;
     witness_->faulty.insert(arm);
-    const auto& list = listed_faults();
-    const ListedFault& fault =
-        plan_.fault != nullptr ? *plan_.fault : list[random_.index(list.size())];
     for (FaultRequest request : fault.faults) {
       request.arm = arm;
       const auto id = executive().faults().inject(request);
@@ -267,7 +279,8 @@ class FaultRun {
   TimePoint next_job_{}, strikes_at_{}, removes_at_ = TimePoint::max();
   std::optional<TimePoint> stopped_since_;
   std::vector<std::uint64_t> present_;  // faults
-  std::size_t submitted_ = 0, succeeded_ = 0;
+  const ListedFault* next_fault_ = nullptr;
+  std::size_t submitted_ = 0;
 };
 
 }  // namespace

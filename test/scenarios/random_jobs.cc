@@ -44,8 +44,9 @@ CellDescription random_cell(RandomWorld world, Random& random) {
   return world == RandomWorld::sliders ? sliders(random) : pandas(random);
 }
 
-RandomJobs::RandomJobs(const Cell& cell, Random& random, std::function<Executive&()> executive)
-    : random_(random), executive_(std::move(executive)) {
+RandomJobs::RandomJobs(const Cell& cell, Random& random, std::function<Executive&()> executive,
+                       bool only_goals)
+    : random_(random), executive_(std::move(executive)), only_goals_(only_goals) {
   for (const armloom::Arm& arm : cell.arms) {
     Arm& own = arms_.emplace_back(Arm{arm.name, {}, {arm.home.begin(), arm.home.end()}, 1.1});
     for (const JointId joint : arm.joints) own.joints.push_back(cell.joint(joint).name);
@@ -139,7 +140,8 @@ JobRequest RandomJobs::goal() {
 
 JobRequest RandomJobs::any() {
   const double what = random_.uniform(0.0, 1.0);
-  JobRequest request = what < 0.50   ? motion(some_arms(1))
+  JobRequest request = only_goals_   ? goal()
+                       : what < 0.50 ? motion(some_arms(1))
                        : what < 0.60 ? motion(some_arms(2))
                        : what < 0.70 ? loop()
                                      : goal();

@@ -29,7 +29,9 @@ Times times_in(const Reach& reach, Duration from, Duration to) {
   }
   // Beyond the end of its reach, an arm rests there.
   const bool is_end = to >= reach.to - reach.from;
-  if (reach.rate_low > 0.0 && !is_end) times.to_s = (to_seconds(to) + slack_s) / reach.rate_low;
+  if (reach.rate_low > 0.0 && !is_end) {
+    times.to_s = (to_seconds(to) + slack_s + to_seconds(reach.late)) / reach.rate_low;
+  }
   return times;
 }
 
