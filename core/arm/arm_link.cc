@@ -135,6 +135,7 @@ void ArmLink::synchronize(const ArmFeedback& first) {
   number_ = first.acknowledged;
   released_ = 0;
   fastest_.reset();
+  if (speed_) command(ArmCommand::SetSpeed{*speed_});  // the controller may have been restarted
   if (!motion_ || motion_->number <= number_) return;
   motion_->lost = heard_.acknowledged >= motion_->number
                       ? "the controller has lost its motion: it was restarted"

@@ -266,6 +266,9 @@ void Executive::Impl::watch() {
     found.push_back(std::move(ahead));
   }
   act_on(found);
+  for (const ArmId arm : all_arms(*cell_)) {
+    if (watch_.premises().moved_from_rest(arm)) locate(arm);
+  }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
 

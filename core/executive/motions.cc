@@ -20,7 +20,10 @@ bool at_rest(Phase phase) {
 
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
-    : cell_(std::move(cell)), measured_(std::move(measured)), truth_(measured_) {
+    : cell_(std::move(cell)),
+      shares_(controllers.size(), 1.0),
+      measured_(std::move(measured)),
+      truth_(measured_) {
   for (std::size_t a = 0; a < controllers.size(); ++a) {
     const Robot& robot = cell_->robots[cell_->arms[a].robot.index()];
     ArmLink link(robot.controller, joints_of(measured_, controllers[a]->joints()));

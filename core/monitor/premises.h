@@ -29,6 +29,7 @@ struct PathDistance {
 // violation. Pure; deterministic; not thread-safe.
 class PremiseCheck {
  public:
+  using Kind = MonitorFinding::Kind;
   explicit PremiseCheck(CellPtr cell);
 
   // Returns the new findings of this period; each stops its arm, except
@@ -46,6 +47,10 @@ class PremiseCheck {
   // Returns false if the arm is not where its certificates assume: it deviates, moves without a
   // motion, or is beyond its authority.
   [[nodiscard]] bool is_as_certified(ArmId arm) const { return arms_[arm.index()].as_certified; }
+  // Returns true if the arm moved away from its rest and has not stood still for a while since.
+  [[nodiscard]] bool moved_from_rest(ArmId arm) const {
+    return arms_[arm.index()].violations[static_cast<std::size_t>(Kind::unplanned_motion)].holds;
+  }
   // Returns the measured velocities of all joints (rad/s, m/s) in the last period.
   [[nodiscard]] const Configuration& velocity() const { return velocity_; }
 
@@ -60,7 +65,6 @@ class PremiseCheck {
   [[nodiscard]] static double tracking_error(const Cell& cell, ArmId arm);
 
  private:
-  using Kind = MonitorFinding::Kind;
   struct Violation {
     bool holds = false;
     bool has_rested = false;  // since it was reported

@@ -19,7 +19,9 @@ std::vector<ListedFault> all() {
   const std::string fails = "the job fails with `arm_fault`; the arm can be used after a resume";
   const std::string off_path =
       "the monitor stops the arm at `tracking_error_rad`, and others that it may hit";
-  const std::string away = "the monitor stops the arm once it is past its authority";
+  const std::string away =
+      "the monitor stops the arm past its authority: too late if another arm is within its braking "
+      "distance";
   const std::string tolerated = "nothing: the promises hold";
   return {
       {"stall 0.5 s", {one(Kind::stall, 0, 500ms)}, waits},
