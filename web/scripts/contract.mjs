@@ -14,7 +14,7 @@ const kWeb = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kWeb, '../build/armloom'));
 const kHead = '// Written by `npm run contract`: change the descriptions in server/messages, not this file.\n';
 // The schemas of the messages that the page reads. Schemas to which they refer are added.
-const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Jog', 'JobPage', 'MeasuredStates', 'RecordingList'];
+const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Jog', 'JobPage', 'MeasuredStates', 'RecordingList', 'Fault', 'FaultRequest'];
 // Keywords that the page does not check, so that a newer server may send more than this page knows.
 const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'exclusiveMaximum', 'pattern', 'format', 'dependentRequired']);
 // Large arrays. They are validated where they are used (src/motion, src/state/trace), because a

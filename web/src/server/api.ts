@@ -3,8 +3,8 @@
 import { cut_text } from '../names';
 import { kText } from '../strings';
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 const kAnswers = kText.server.answers;
@@ -143,6 +143,15 @@ export class Api {
 
   async renew_jog(arm: string, key: string): Promise<Answer<Jog>> {
     return checked(kAnswers.jog_motion, await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify({ control: key })), parse_jog);
+  }
+
+  /** Injects a fault into a simulated arm. */
+  async inject(fault: FaultRequest): Promise<Answer<Fault>> {
+    return checked(kAnswers.fault, await this.ask('POST', '/sim/faults', JSON.stringify(fault)), parse_fault);
+  }
+
+  remove_fault(id: string): Promise<Answer<unknown>> {
+    return this.ask('DELETE', `/sim/faults/${encodeURIComponent(id)}`);
   }
 
   stop(): Promise<Answer<unknown>> {

@@ -59,6 +59,10 @@ export type MeasuredStates = Schemas['MeasuredStates'];
 /** The recordings on the server. */
 export type RecordingList = Schemas['RecordingList'];
 export type KeptRecording = Schemas['Recording'];
+/** A fault of a simulated arm, or of the link to its controller. */
+export type Fault = Schemas['Fault'];
+export type FaultRequest = Schemas['FaultRequest'];
+export type FaultKind = FaultRequest['kind'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** An error in the format of RFC 9457, with a JSON pointer to the fault and the value found. */
@@ -145,6 +149,7 @@ export const parse_session = (value: unknown): Parsed<Session> => check('Session
 export const parse_comparison = (value: unknown): Parsed<Comparison> => check('Comparison', value);
 export const parse_control = (value: unknown): Parsed<Control> => check('Control', value);
 export const parse_control_taken = (value: unknown): Parsed<ControlTaken> => check('ControlTaken', value);
+export const parse_fault = (value: unknown): Parsed<Fault> => check('Fault', value);
 export const parse_jog = (value: unknown): Parsed<Jog> => check('Jog', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_measured_states = (value: unknown): Parsed<MeasuredStates> => check('MeasuredStates', value);

@@ -1,0 +1,37 @@
+// The faults of simulated arms as a form edits them. Pure.
+
+import type { FaultKind, FaultRequest } from '../server/messages';
+import { kText } from '../strings';
+import { number_in } from './number_text';
+
+const kWords = kText.faults;
+
+export const kKinds: Record<FaultKind, string> = kWords.kinds;
+const kValues: Partial<Record<FaultKind, { unit: string; usual: number }>> = kWords.values;
+const kOnce: readonly FaultKind[] = ['fault', 'reject'];
+
+/** Returns the unit and usual value of this kind of fault, or null if it has no value. */
+export function value_of(kind: FaultKind): { unit: string; usual: number } | null {
+  return kValues[kind] ?? null;
+}
+
+/** Returns true if a fault of this kind may have a duration. */
+export function may_last(kind: FaultKind): boolean {
+  return !kOnce.includes(kind);
+}
+
+/** Returns the request, or null if a text is not a number. An empty `for_s` means no end. */
+export function request_of(arm: string, kind: FaultKind, value: string, for_s: string): FaultRequest | null {
+  const request: FaultRequest = { arm, kind };
+  if (value_of(kind)) {
+    const number = number_in(value);
+    if (number === null) return null;
+    request.value = number;
+  }
+  if (may_last(kind) && for_s.trim() !== '') {
+    const number = number_in(for_s);
+    if (number === null) return null;
+    request.for_s = number;
+  }
+  return request;
+}
