@@ -45,8 +45,8 @@ CellDescription random_cell(RandomWorld world, Random& random) {
 }
 
 RandomJobs::RandomJobs(const Cell& cell, Random& random, std::function<Executive&()> executive,
-                       double off_start)
-    : random_(random), executive_(std::move(executive)), off_start_(off_start) {
+                       bool only_goals)
+    : random_(random), executive_(std::move(executive)), only_goals_(only_goals) {
   for (const armloom::Arm& arm : cell.arms) {
     Arm& own = arms_.emplace_back(Arm{arm.name, {}, {arm.home.begin(), arm.home.end()}, 1.1});
     for (const JointId joint : arm.joints) own.joints.push_back(cell.joint(joint).name);
@@ -98,7 +98,7 @@ JobRequest RandomJobs::motion(const std::vector<std::size_t>& arms) {
                                           joints.end());
     std::vector<double> begins = predicted(arm);
     if (random_.chance(0.05)) begins = anywhere(arms_[arm]);
-    if (random_.chance(0.1)) begins[0] += random_.uniform(-off_start_, off_start_);
+    if (random_.chance(0.1)) begins[0] += random_.uniform(-0.008, 0.008);
     const std::vector<double> ends = anywhere(arms_[arm]);
     from.insert(from.end(), begins.begin(), begins.end());
     to.insert(to.end(), ends.begin(), ends.end());
@@ -140,7 +140,8 @@ JobRequest RandomJobs::goal() {
 
 JobRequest RandomJobs::any() {
   const double what = random_.uniform(0.0, 1.0);
-  JobRequest request = what < 0.50   ? motion(some_arms(1))
+  JobRequest request = only_goals_   ? goal()
+                       : what < 0.50 ? motion(some_arms(1))
                        : what < 0.60 ? motion(some_arms(2))
                        : what < 0.70 ? loop()
                                      : goal();

@@ -27,10 +27,10 @@ class RandomJobs {
     std::vector<double> home;
     double spread;  // of random positions around home (rad, m), each joint
   };
-  // `random` outlives this object, and so does the cell's executive. `off_start`: one of ten
-  // trajectories begins up to this far from where its arm rests (rad, m).
+  // `random` outlives this object, and so does the cell's executive. `only_goals`: no
+  // trajectories, which may begin a little off the place where the arm rests.
   RandomJobs(const Cell& cell, Random& random, std::function<Executive&()> executive,
-             double off_start = 0.008);
+             bool only_goals = false);
 
   [[nodiscard]] JobRequest any();
   // Call for each accepted job: later jobs begin where it may leave its arms.
@@ -49,7 +49,7 @@ class RandomJobs {
 
   Random& random_;
   std::function<Executive&()> executive_;
-  double off_start_;
+  bool only_goals_;
   std::vector<Arm> arms_;
   std::map<std::string, std::vector<std::vector<double>>>
       ends_;  // by key and arm: where the job may leave the arm; empty if the job does not move it
