@@ -202,7 +202,10 @@ std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
 JobResultView result_of(const Job& job, const std::vector<WaitView>& waits, const Cell& cell,
                         const JobNames& names) {
   JobResultView result{*job.reason(), job.detail()};
-  if (result.reason == Reason::deadlock) result.detail = deadlock_text(ring_of(job, names), cell);
+  // A move-to-start ends with its job, and is in no cycle itself.
+  if (result.reason == Reason::deadlock && !job.ring.empty()) {
+    result.detail = deadlock_text(ring_of(job, names), cell);
+  }
   if (result.reason != Reason::backlog_timeout) return result;
   for (const WaitView& wait : waits) {
     if (wait.kind != Wait::Kind::arm && wait.kind != Wait::Kind::object) continue;
