@@ -398,6 +398,33 @@ export interface components {
             /** @description Newest first */
             recordings: components["schemas"]["Recording"][];
         };
+        Fault: {
+            id: string;
+            arm: string;
+            /** @enum {string} */
+            kind: "stall" | "slow" | "late_start" | "fault" | "drop_feedback" | "freeze_feedback" | "drift" | "reject" | "runaway" | "ignore_stop" | "noise" | "delay" | "jitter" | "loss" | "reorder" | "cut" | "restart" | "clock_drift";
+            /** @description Start in cell time; null if the fault begins at once */
+            at_s: number | null;
+            /** @description Duration; null if the fault lasts until it is removed (`fault` and `reject`: until it has occurred) */
+            for_s: number | null;
+            value: number;
+        };
+        /** @description A fault of a simulated arm, or of the link to its controller. `stall`: the arm stays where it is on its path. `slow`: the arm follows its path at a share of its speed. `late_start`: the arm begins each motion late. `fault`: the controller fails once, from `at_s` on: during the present motion, or else as soon as the next motion moves. `drop_feedback`: no report of the arm arrives. `freeze_feedback`: reports arrive with new numbers and times, but with old content. `drift`: the first joint leaves its path, or the position where it rests, until the arm is braked. The joint stays off its path until the next motion. `reject`: the controller rejects the next motion, once. `runaway`: the arm passes its authority and goes on to the end of its trajectory: it may hit other arms. `ignore_stop`: the controller acknowledges brakes, but carries them out only when the fault ends. Only a stop of category 0 works. `noise`: measured positions have Gaussian noise. `delay`: commands and reports arrive late. `jitter`: commands and reports arrive late by random times. `loss`: commands and reports are lost at random. `reorder`: commands and reports are overtaken by later ones at random. `cut`: the connection is down, and messages under way are lost. The arm brakes by itself. `restart`: the controller is down, and forgets its motion. The arm brakes by itself. `clock_drift`: the controller's clock is too fast, or too slow if the value is negative. */
+        FaultRequest: {
+            /** @description Arm that gets the fault */
+            arm: string;
+            /**
+             * @description Kind of fault
+             * @enum {string}
+             */
+            kind: "stall" | "slow" | "late_start" | "fault" | "drop_feedback" | "freeze_feedback" | "drift" | "reject" | "runaway" | "ignore_stop" | "noise" | "delay" | "jitter" | "loss" | "reorder" | "cut" | "restart" | "clock_drift";
+            /** @description Start in cell time; default: now */
+            at_s?: number;
+            /** @description Duration; by default, the fault lasts until it is removed. Not allowed for `fault` and `reject`, which occur once */
+            for_s?: number;
+            /** @description `slow`: share of the speed, at least 0 and at most 1; `late_start`: delay in s, at least 0 and at most 1e+06; `drift`: rad/s or m/s, at least -10 and at most 10, default 0.1; `noise`: standard deviation in rad or m, at least 0 and at most 1, default 0.01; `delay`: delay of each message in s, at least 0 and at most 10, default 0.05; `jitter`: largest delay of a message in s, at least 0 and at most 10, default 0.02; `loss`: probability for each message, at least 0 and at most 1, default 0.1; `reorder`: probability for each message, at least 0 and at most 1, default 0.1; `clock_drift`: seconds gained in each second, at least -0.1 and at most 0.1, default 5e-04. Not allowed for other kinds */
+            value?: number;
+        } & (unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown & unknown);
         SnapshotEvent: {
             /**
              * Format: uuid
@@ -872,6 +899,8 @@ export interface components {
             home: number[];
             /** @description Largest measured deviation of a joint from the path */
             deviation_rad: number;
+            /** @description Largest `deviation_rad` since the session began */
+            deviation_max_rad: number;
             /**
              * @description Link to the arm's controller. connecting: no report yet. stale: reports are late, and the arm gets no more authority. lost: the arm is stopped until it is resumed
              * @enum {string}
@@ -879,6 +908,8 @@ export interface components {
             link: "connecting" | "up" | "stale" | "lost";
             /** @description Why the link is not up; null if it is */
             link_detail: string | null;
+            /** @description False after a stop of category 0 or 1, until the arm's next motion */
+            drives_on: boolean;
             /** @description Speed override of this arm: largest share of the planned speed; absent in old recordings */
             speed_override?: number;
             /** @description Override at which the arm moves: cell's override x this arm's. The arms of one motion all move at the smallest of theirs */
@@ -904,7 +935,7 @@ export interface components {
         /** @description `contact`, `clearance`: two bodies are too close. `approach`: two bodies will be too close unless an arm stops now. The other kinds report a violated premise of the certificates: an arm that is not where it should be, or feedback that is late, frozen or implausible. */
         MonitorFinding: {
             /** @enum {string} */
-            kind: "contact" | "clearance" | "approach" | "deviation" | "unplanned_motion" | "early_finish" | "beyond_authority" | "late_feedback" | "frozen_feedback" | "implausible_feedback";
+            kind: "contact" | "clearance" | "approach" | "deviation" | "unplanned_motion" | "early_finish" | "beyond_authority" | "stop_ignored" | "late_feedback" | "frozen_feedback" | "implausible_feedback";
             /** @description One sentence */
             text: string;
             /** @description Arms of the pair, or the arm that violates a premise */
