@@ -31,7 +31,8 @@ class Client {
       case 6:
         return cell_.executive().stop({ArmId{below(2)}}, "operator");
       case 7:
-        return cell_.executive().resume({ArmId{0}, ArmId{1}});
+        cell_.executive().resume({ArmId{0}, ArmId{1}});
+        return;
       default:
         return change_scene();
     }

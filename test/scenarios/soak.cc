@@ -41,8 +41,12 @@ struct Soak::Watch final : Observer {
   std::string first;
 };
 
-Soak::Soak(std::uint64_t seed, RandomWorld world, const std::string& policy)
-    : random_(seed), policy_(policy), watch_(std::make_unique<Watch>()) {
+Soak::Soak(std::uint64_t seed, RandomWorld world, const std::string& policy, bool slows)
+    : random_(seed),
+      random_speed_(seed + 1),
+      slows_(slows),
+      policy_(policy),
+      watch_(std::make_unique<Watch>()) {
   auto cell = build_cell(random_cell(world, random_));
   if (!cell) throw std::runtime_error(cell.error().front().detail);
   cell_ = *cell;
@@ -116,9 +120,9 @@ void Soak::command() {
 }
 
 void Soak::change_speed() {
-  const std::size_t which = random_speed_.index(arms_.size() + 1);
+  const std::size_t which = random_speed_.index(cell_->arms.size() + 1);
   const std::vector<double> shares{0.0, 0.05, 0.3, 0.7, 1.0, 1.0};
-  executive().set_speed(which == arms_.size()
+  executive().set_speed(which == cell_->arms.size()
                             ? std::nullopt
                             : std::optional(ArmId{static_cast<std::uint32_t>(which)}),
                         shares[random_speed_.index(shares.size())]);
@@ -178,7 +182,8 @@ void Soak::settle() {
   (void)executive().scene().remove("ball");
   resume_all(executive());
   executive().set_speed(std::nullopt, 1.0);
-  for (std::uint32_t arm = 0; arm < arms_.size(); ++arm) executive().set_speed(ArmId{arm}, 1.0);
+  for (std::uint32_t arm = 0; arm < cell_->arms.size(); ++arm)
+    executive().set_speed(ArmId{arm}, 1.0);
   const TimePoint latest = simulation_->now() + 3600s;
   while (!executive().all_ended() && !simulation_->settled() && simulation_->now() < latest) {
     simulation_->pass_over_rest(latest);

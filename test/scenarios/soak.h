@@ -31,7 +31,8 @@ struct SoakTally {
 // - with `slows`, changes of the speed override.
 class Soak {
  public:
-  Soak(std::uint64_t seed, RandomWorld world, const std::string& policy);
+  // With `slows`, the speed override changes at random, too.
+  Soak(std::uint64_t seed, RandomWorld world, const std::string& policy, bool slows = false);
   ~Soak();
 
   // Runs and adds the results to the tally. With `expects`, a broken promise fails the test.
