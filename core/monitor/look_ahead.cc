@@ -9,7 +9,7 @@ namespace armloom {
 namespace {
 
 // An arm that goes on keeps its measured rate to within this.
-constexpr double kRateChange = 0.2;
+constexpr double kRateChange = 0.1;
 
 }  // namespace
 
