@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/jobs/speed_override.h"
+#include "core/executive/executive.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/output_part.h"

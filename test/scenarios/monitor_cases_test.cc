@@ -148,7 +148,7 @@ TEST(Monitor, StopsAnArmThatAnArmOffItsRestEndangers) {
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].finding.kind, Kind::unplanned_motion);
   EXPECT_EQ(found[0].stopped, std::vector<std::string>{"x"});
-  EXPECT_EQ(cell.job("passes").state, JobState::paused);
+  EXPECT_FALSE(is_terminal(cell.job("passes").state));
   EXPECT_FALSE(cell.job("passes").waits_on.empty());
   EXPECT_GE(cell.log.closest_m, 0.01);
 }
