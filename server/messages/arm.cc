@@ -122,9 +122,15 @@ FormatPtr<Stopped> stopped_format() {
   static const auto format =
       named("Stopped", "",
             object<Stopped>({output_only("stopped", &Stopped::stopped, flag()),
-                             output_only("not_resumed", &Stopped::not_resumed, list(text()),
-                                         "Arms that stay stopped, because the link to their "
-                                         "controller is not up")}));
+                             output_if(
+                                 "not_resumed",
+                                 [](const Stopped& now) {
+                                   return now.not_resumed.empty() ? std::nullopt
+                                                                  : std::optional(now.not_resumed);
+                                 },
+                                 list(text()),
+                                 "Arms that stay stopped, because the link to their "
+                                 "controller is not up")}));
   return format;
 }
 
