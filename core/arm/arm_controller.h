@@ -56,7 +56,7 @@ struct ArmCommand {
   std::variant<Release, Follow, Extend, Brake, SetSpeed> what;
 };
 
-// What a controller reports of its arm.
+// A controller's report on its arm.
 struct ArmFeedback {
   enum class Phase {
     idle,      // at rest, no motion

@@ -11,7 +11,7 @@ class TrackingErrors {
  public:
   // The same error for all arms.
   TrackingErrors(double all) : all_(all) {}  // NOLINT(google-explicit-constructor): as a number
-  // What the cell's controllers promise (Cell::tracking_error).
+  // Takes the promises of the cell's controllers (Cell::tracking_error).
   explicit TrackingErrors(const Cell& cell) {
     for (const Arm& arm : cell.arms) by_arm_.push_back(cell.tracking_error(arm.robot));
   }

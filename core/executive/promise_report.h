@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// What the promises of an arm's controller cost.
+// The costs of the promises of an arm's controller.
 struct PromiseReport {
   // A distance at home, and an upper bound for all joint positions within the limits.
   struct Distance {

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// What the monitor found, and the arms to be stopped for it (README.md).
+// A finding of the monitor, and the arms to be stopped for it (README.md).
 struct MonitorFinding {
   enum class Kind {
     contact,               // two bodies touch

@@ -24,7 +24,7 @@ class ReachGeometry {
   [[nodiscard]] virtual std::optional<Proximity> may_meet_scene(const Reach& reach) = 0;
 };
 
-// What certificates prove of the present positions up to the arms' authority.
+// The proofs that certificates give for the present positions up to the arms' authority.
 class CertifiedPairs {
  public:
   virtual ~CertifiedPairs() = default;

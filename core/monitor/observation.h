@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// What the monitor knows of one arm in a period.
+// The monitor's knowledge of one arm in a period.
 struct ArmObservation {
   bool is_connected = true;   // its controller has reported; if false, nothing else is known
   TrajectoryPtr motion = {};  // null if the arm has none

@@ -66,7 +66,7 @@ inline constexpr const char* kTrueStates = "true_states.csv";
     const std::filesystem::path& file, const Cell& cell,
     std::vector<std::string>* warnings = nullptr);
 
-// What really happened in a recording.
+// The true states of a recording.
 struct TrueStates {
   std::vector<RecordedState> states;
   // The states are measured before this time, and true from then on; nullopt if all are measured.

@@ -19,7 +19,7 @@ const std::vector<std::string> kPolicies{"coordinated", "earliest_start", "certi
                                          "reservation", "lockstep",       "sequential"};
 
 struct Options {
-  std::string fault;  // empty: all
+  std::string fault;  // all if empty
   std::uint64_t seeds = 100, first = 1;
   bool monitored = true, verbose = false;
   double hours = 0.0;  // above zero: long runs instead of the list

@@ -14,12 +14,12 @@
 
 namespace armloom {
 
-// What a run is made of. Equal plans give equal runs.
+// The parameters of a run. Equal plans give equal runs.
 struct FaultRunPlan {
   std::uint64_t seed = 1;
   RandomWorld world = RandomWorld::sliders;
   std::string policy = "coordinated";
-  // The fault that strikes one arm; null: faults of the list strike all the time.
+  // The fault that strikes one arm. If null, faults of the list strike all the time.
   const ListedFault* fault = nullptr;
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off

@@ -1,4 +1,4 @@
-// What happens when the link to a controller is lost, and when an arm is not where it came to rest.
+// Arms whose link to the controller is lost, and arms that are not where they came to rest.
 #include <gtest/gtest.h>
 
 #include "core/arm/simulated_arm.h"

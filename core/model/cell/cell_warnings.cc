@@ -55,7 +55,7 @@ void warn_of_lags(const CellDescription& description, Diagnostics& diagnostics) 
   }
 }
 
-// Of normally distributed noise, one value in 500 million is beyond six standard deviations.
+// One value in 500 million of normally distributed noise is beyond six standard deviations.
 constexpr double kSigmas = 6.0;
 
 void warn_of_noise(const CellDescription& description, Diagnostics& diagnostics) {
