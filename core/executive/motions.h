@@ -33,6 +33,7 @@ class Motions {
   void brake_all();
   // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
   void set_speed(std::vector<double> shares);
+  [[nodiscard]] double speed(ArmId arm) const { return shares_[arm.index()]; }
   void release(JobId job);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.

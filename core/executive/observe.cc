@@ -28,6 +28,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         // Not the guard's: the guard raises it to the measured progress.
         .authority = position.at_rest ? feedback.measured_progress
                                       : std::max(motions.granted(arm), feedback.authority),
+        .speed = motions.speed(arm),
         .rests = rests,
         .brakes = brakes,
         .told_to_brake = motions.told_to_brake(arm),

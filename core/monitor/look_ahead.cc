@@ -8,8 +8,10 @@
 namespace armloom {
 namespace {
 
-// An arm that goes on keeps its measured rate to within this.
+// An arm that goes on keeps its rate to within this share of it.
 constexpr double kRateChange = 0.1;
+// An arm with a lower rate is about to stop or has just set out: it may take any rate.
+constexpr double kStands = 0.01;
 
 }  // namespace
 
@@ -29,7 +31,7 @@ std::optional<double> LookAhead::rate_of(ArmId arm, const Observation& seen) {
   Pace& pace = paces_[arm.index()];
   if (pace.motion != now.motion) {
     pace = {now.motion, now.commanded, seen.time};
-    if (now.commanded <= period_) pace.rate = 1.0;
+    if (now.commanded <= period_) pace.rate = now.speed;
   } else if (seen.time > pace.time) {
     const double rate =
         to_seconds(now.commanded - pace.commanded) / to_seconds(seen.time - pace.time);
@@ -46,6 +48,9 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   Reach reach{.arm = arm, .rest = seen.measured, .shift = zero, .error = zero};
   ArmReach result{.braking = reach, .going = reach, .is_still = false};
 
+  const std::optional<double> rate = rate_of(arm, seen);
+  const bool keeps_rate = rate && *rate >= kStands;
+  const double highest = keeps_rate ? std::min(1.0, *rate * (1.0 + kRateChange)) : 1.0;
   Duration brakes_to{}, goes_to{};
   if (now.motion) {
     StoppingReach& known = stopping_reach_[arm.index()];
@@ -55,14 +60,17 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     reach.motion = now.motion;
     reach.from = std::min(now.measured, now.motion->duration());
     const Duration end = std::max(reach.from, std::min(now.authority, now.motion->duration()));
-    // Progress at the planned rate, the highest, until the brake takes effect.
+    // Progress at the highest rate until the brake takes effect. The way of a brake grows with the
+    // square of the rate.
     const Duration commanded = std::max(now.commanded, now.measured);
-    brakes_to =
-        now.rests ? reach.from : std::min(end, commanded + controller.reaction + known.reach);
+    const Duration way = from_seconds(highest * to_seconds(controller.reaction) +
+                                      highest * highest * to_seconds(known.reach));
+    brakes_to = now.rests ? reach.from : std::min(end, commanded + way);
     if (now.brakes && now.rests_at) {
       brakes_to = std::clamp(*now.rests_at, reach.from, now.motion->duration());
     }
-    goes_to = now.rests ? reach.from : std::min(end, brakes_to + period_);
+    const Duration more = from_seconds(highest * to_seconds(period_));
+    goes_to = now.rests ? reach.from : std::min(end, brakes_to + more);
     if (now.feedback_age > controller.feedback_timeout) brakes_to = goes_to = end;
     if (now.brakes || is_stopping) goes_to = brakes_to;
   }
@@ -102,16 +110,15 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     }
     off_path_[arm.index()] = std::move(off);
   }
-  const std::optional<double> rate = rate_of(arm, seen);
   reach.slack = period_;
   result.braking = reach;
   result.braking.to = std::max(reach.from, brakes_to);
   result.going = std::move(reach);
   result.going.to = std::max(result.going.from, goes_to);
   // An arm that stands on its path may set out at any time.
-  if (rate && *rate >= kRateChange) {
-    result.going.rate_low = *rate - kRateChange;
-    result.going.rate_high = std::min(1.0, *rate + kRateChange);
+  if (keeps_rate) {
+    result.going.rate_low = *rate * (1.0 - kRateChange);
+    result.going.rate_high = highest;
     // An arm follows its commands with a first-order lag. It falls behind further until it is
     // behind by lag * rate.
     const Duration behind = now.commanded - now.measured;

@@ -17,6 +17,7 @@ struct ArmObservation {
   Duration measured{};        // progress on the motion
   Duration commanded{};
   Duration authority{};  // largest permitted progress
+  double speed = 1.0;    // speed override: largest share of the planned rate
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
   bool brakes = false;                          // it comes to rest and has no other command

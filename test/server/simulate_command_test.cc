@@ -80,8 +80,8 @@ TEST_F(Simulate, RecordsTruePositionsThatFeedbackHidesAndAuditChecksThem) {
 
   // Both arms reach through each other, in truth only.
   constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
-  const std::size_t last = truth.rfind('\n', truth.size() - 2) + 1;
-  std::string row = std::to_string(std::stod(truth.substr(last)) + 0.001);
+  const double end_s = std::stod(truth.substr(truth.rfind('\n', truth.size() - 2) + 1));
+  std::string row = std::to_string(end_s + 0.1);
   for (int arm = 0; arm < 2; ++arm) {
     for (const double q : kReaching) row += "," + std::to_string(q);
     row += ",0";
