@@ -150,9 +150,10 @@ void put_speed(Call call) {
   read_body(call.parts, call.request, call.respond, read_speed_override, set);
 }
 void put_arm_speed(Call call) {
-  const auto arm = named_arm(call);
-  if (!arm) return;
-  const auto set = [&parts = call.parts, arm, respond = call.respond](const SpeedShare& asked) {
+  const auto set = [&parts = call.parts, name = call.arguments.front(),
+                    respond = call.respond](const SpeedShare& asked) {
+    const auto arm = parts.cell->find_arm(name);
+    if (!arm) return respond(no_such_arm(parts, name));
     ask_urgently(
         parts,
         [arm = *arm, asked](Executive& executive) {

@@ -96,7 +96,10 @@ test('Earlier events, past positions and the API documentation are read below a 
   await page.reload();
   await page.locator('[data-test=link].open').waitFor();
   await page.waitForFunction(() => window.armloom?.is_drawn() && window.armloom.lanes().some(({ marks }) => marks.length > 0));
-  for (const path of ['events', 'states', 'timeline', 'cell']) assert.ok(asked.includes(`${kPath}api/v1/${path}`), `${path} is not among ${asked.join(' ')}`);
+  for (const path of ['events', 'states', 'timeline', 'cell']) {
+    for (let i = 0; i < 100 && !asked.includes(`${kPath}api/v1/${path}`); ++i) await page.waitForTimeout(100);
+    assert.ok(asked.includes(`${kPath}api/v1/${path}`), `${path} is not among ${asked.join(' ')}`);
+  }
   await page.goto(`${url}docs`);
   await page.locator('text=/jobs/').first().waitFor();
 });
