@@ -315,6 +315,18 @@ test('arms stop and resume', async () => {
   }
   assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true});
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true});
+  const wrong = await call(400, 'POST', `${v1}/stop`, {query: '?category=7'});
+  assert.match(wrong.detail, /stopped with category 2/);
+  const args = {name: 'left'};
+  const has_link = async (link) => { while ((await call(200, 'GET', `${v1}/arms/{name}`, {args})).link !== link); };
+  const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: {arm: 'left', kind: 'drop_feedback'}});
+  await has_link('lost');
+  assert.match((await call(409, 'POST', `${v1}/arms/{name}/resume`, {args})).detail, /stays stopped/);
+  assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false, not_resumed: ['left']});
+  await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
+  await has_link('up');
+  await call(202, 'POST', `${v1}/resume`);
 });
 
 test('speed override is set for the cell and for an arm', async () => {
