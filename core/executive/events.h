@@ -153,7 +153,7 @@ struct ArmView {
   std::vector<double> home;
   // Measured distance from its path, of the joint with the largest distance (rad or m).
   double deviation_rad = 0.0;
-  double deviation_max_rad = 0.0;  // the largest since the session began
+  double deviation_max_rad = 0.0;                    // the largest since the session began
   ArmLink::State link = ArmLink::State::connecting;  // to its controller
   std::string link_detail;                           // why the link is not up; empty if it is
   bool drives_on = true;

@@ -70,8 +70,8 @@ class Executive::Impl {
     TimePoint now{};
     std::optional<TimePoint> wake_at = {};  // requested by the scheduler
     HoldToRun held = {};                    // jobs that end with their lease
-    bool quiet = false;  // in the last cycle all arms were settled and there was no report
-    bool monitored = true;                  // ExecutiveOptions
+    bool quiet = false;     // in the last cycle all arms were settled and there was no report
+    bool monitored = true;  // ExecutiveOptions
     std::optional<TimePoint> dies_at = {};  // likewise
     std::uint64_t ticks = 0;
     InputLog* inputs = nullptr;  // receives the inputs between the ticks

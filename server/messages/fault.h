@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// Body of POST /sim/faults. The kinds of faults, with the ranges and defaults of their values, are a
-// table in fault.cc.
+// Body of POST /sim/faults. The kinds of faults, with the ranges and defaults of their values, are
+// a table in fault.cc.
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 

@@ -225,10 +225,9 @@ class Metrics::Impl {
       counters("armloom_monitor_findings_total", "Findings of the monitor, by kind");
   Counter& arms_stopped_ =
       counters("armloom_monitor_stopped_arms_total", "Arms that the monitor stopped").Add({});
-  Counter& missed_ =
-      counters("armloom_monitor_missed_periods_total",
-               "Monitor periods that began late by a period or more")
-          .Add({});
+  Counter& missed_ = counters("armloom_monitor_missed_periods_total",
+                              "Monitor periods that began late by a period or more")
+                         .Add({});
   Histogram& reactions_ =
       histograms("armloom_monitor_reaction_seconds",
                  "Time from the beginning of a monitor period to the stop commands of its findings")

@@ -74,9 +74,10 @@ void measure(const std::string& policy, double rate_hz, int rounds) {
       std::accumulate(costs.begin(), costs.end(), 0.0) / static_cast<double>(costs.size());
   std::ranges::sort(costs);
   const double most = costs[costs.size() * 999 / 1000];
-  std::printf("%-16s %6.0f Hz %8zu periods  mean %7.1f us  p99.9 %7.1f us  %5.1f %% of a core  %d findings\n",
-              policy.c_str(), rate_hz, costs.size(), mean, most, 1e-4 * mean * rate_hz,
-              watch.findings);
+  std::printf(
+      "%-16s %6.0f Hz %8zu periods  mean %7.1f us  p99.9 %7.1f us  %5.1f %% of a core  %d "
+      "findings\n",
+      policy.c_str(), rate_hz, costs.size(), mean, most, 1e-4 * mean * rate_hz, watch.findings);
 }
 
 }  // namespace

@@ -37,8 +37,7 @@ struct Line final : ReachGeometry {
     ++asked;
     const Range one = range(a), two = range(b);
     if (one.low > two.high + 0.01 || two.low > one.high + 0.01) return std::nullopt;
-    return Proximity{.body_a = "a", .body_b = "b", .arm_a = a.arm, .arm_b = b.arm,
-                     .limit_m = 0.01};
+    return Proximity{.body_a = "a", .body_b = "b", .arm_a = a.arm, .arm_b = b.arm, .limit_m = 0.01};
   }
   std::optional<Proximity> may_meet_scene(const Reach& a) override {
     ++asked;

@@ -112,8 +112,8 @@ class MotionTube : public TimeTree {
 
   std::shared_ptr<const ArmGeometry> geometry_;
   TrajectoryPtr trajectory_;
-  std::vector<int> column_;   // by row: index in the trajectory's joints, or -1
-  std::vector<double> rest_;  // by row
+  std::vector<int> column_;    // by row: index in the trajectory's joints, or -1
+  std::vector<double> rest_;   // by row
   Duration begin_{};           // trajectory time at which the tube begins
   std::vector<double> shift_;  // by row, of joints on the motion
   std::vector<double> error_;  // by row: largest deviation of the joint
