@@ -22,4 +22,14 @@ class TrackingErrors {
   std::vector<double> by_arm_;  // by ArmId; empty if all_ applies
 };
 
+// A motion that starts farther off its path than the tracking error is certified for a larger
+// error. Two measurements of one position differ by up to the tracking error; so the monitor allows
+// for one of them, and certificates for both.
+[[nodiscard]] inline double certified_error(double off_path, double tracking_error) {
+  return off_path > tracking_error ? off_path + 2.0 * tracking_error : off_path;
+}
+[[nodiscard]] inline double observed_limit(double off_path, double tracking_error) {
+  return off_path > tracking_error ? off_path + tracking_error : tracking_error;
+}
+
 }  // namespace armloom

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/coordination/effort.h"
+#include "core/coordination/tracking_errors.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -194,13 +195,19 @@ Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
         others.try_emplace(*jobs_[a], Motion{*jobs_[a], position.motion, position.measured})
             .first->second;
     other.progress = std::min(other.progress, position.measured);
-    other.off_path = std::max(other.off_path, position.error());
+    const double error = cell_->tracking_error(cell_->arm(ArmId{a}).robot);
+    other.off_path = std::max(other.off_path, certified_error(position.error(), error));
   }
   for (const auto& [id, other] : others) question.others.push_back(other);
+  double error = 0.0;
+  for (const ArmId arm : kept.motion->arms()) {
+    error = std::max(error, cell_->tracking_error(cell_->arm(arm).robot));
+  }
+  const double off_path = guard_.off_path(kept.motion, kept.from());
   question.candidates = {Motion{.job = job,
                                 .trajectory = kept.motion,
                                 .progress = stopped(job, kept).progress,
-                                .off_path = guard_.off_path(kept.motion, kept.from())}};
+                                .off_path = certified_error(off_path, error)}};
   if (kept.answers > 0) question.effort = kEffortGrowth;
   return question;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/coordination/tracking_errors.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -163,7 +164,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
   if (time_ && state.connected && fresh_at > state.fresh_at) {
     const double elapsed_s = to_seconds(fresh_at - state.fresh_at);
     // Measured with an error twice; an arm that starts off its path approaches it.
-    const double slack = 2.0 * tracking_error(*cell_, arm) + now.off_path +
+    const double slack = 3.0 * tracking_error(*cell_, arm) + now.off_path +
                          std::max(state.deviation, state.last.off_path);
     Farthest far;
     double limit = 0.0, excess = 0.0;
@@ -197,7 +198,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
   }
   bool is_frozen = false;
   if (seen.time - state.changed_at > timeout && now.commanded - state.commanded_then > timeout) {
-    const double limit = std::max(tracking_error(*cell_, arm), now.off_path);
+    const double limit = observed_limit(now.off_path, tracking_error(*cell_, arm));
     is_frozen = distance_from_path(*now.motion, state.joints, now.commanded, now.commanded,
                                    seen.measured, limit)
                     .distance > limit;
@@ -224,7 +225,7 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
     if (!now.motion) known = {};
     return;
   }
-  const double limit = std::max(tracking_error(*cell_, arm), now.off_path);
+  const double limit = observed_limit(now.off_path, tracking_error(*cell_, arm));
   PathDistance far =
       distance_from_path(*now.motion, state.joints, now.measured,
                          std::max(now.commanded, now.measured), seen.measured, limit);

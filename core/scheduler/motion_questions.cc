@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/coordination/tracking_errors.h"
 #include "core/jobs/pace.h"
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
@@ -16,10 +17,6 @@ const PlacePtr& end_on(const Record& record, ArmId arm) {
   const auto own = std::ranges::find(record.leg.arms, arm) - record.leg.arms.begin();
   return record.leg.to[static_cast<std::size_t>(own)];
 }
-
-// A start within execution.start_tolerance is no path that is kept within the tracking error: the
-// motion is certified with what it is off. What was measured may differ by so much.
-constexpr double kMeasured = 1e-4;
 
 // Under policies without orders nothing else tells those who are about to pass.
 Motion::Stands stands_now(const State& state, const Job& job) {
@@ -64,7 +61,8 @@ double off_path_of(const State& state, const Record& record) {
     const double off_arm = (record.leg.from[i]->q - stands->q).cwiseAbs().maxCoeff();
     if (off_arm > state.cell->execution.start_tolerance_rad) return 0.0;  // it does not begin so
     const RobotId robot = state.cell->arm(arm).robot;
-    if (off_arm > state.cell->tracking_error(robot)) off = std::max(off, off_arm + kMeasured);
+    const double error = state.cell->tracking_error(robot);
+    if (off_arm > error) off = std::max(off, certified_error(off_arm, error));
   }
   return off;
 }
