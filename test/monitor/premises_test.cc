@@ -121,7 +121,9 @@ TEST(Premises, AcceptTheDistanceForWhichAMotionWasCertified) {
   w.seen.measured[0] = 0.005;
   w.arm() = {.motion = w.curve, .authority = 2s, .rests = false, .off_path = 0.005};
   EXPECT_THAT(w.look(), IsEmpty());
-  w.seen.measured[0] = 0.0055;
+  w.seen.measured[0] = 0.0059;
+  EXPECT_THAT(w.look(), IsEmpty()) << "one tracking error more, for noise";
+  w.seen.measured[0] = 0.0061;
   EXPECT_THAT(w.look(), SizeIs(1));
 }
 
