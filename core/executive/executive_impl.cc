@@ -267,7 +267,7 @@ void Executive::Impl::watch() {
   }
   act_on(found);
   for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().moved_from_rest(arm)) locate(arm);
+    if (watch_.premises().rests_elsewhere(arm)) locate(arm);
   }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }

@@ -119,6 +119,11 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       check_rest(arm, seen, found);
       check_stop(arm, seen, found);
     }
+    const bool moved = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)].holds;
+    state.elsewhere = moved && time_ && std::ranges::all_of(state.joints, [&](JointId joint) {
+                        return std::abs(seen.measured[joint.value()] - measured_[joint.value()]) <=
+                               tracking_error(*cell_, arm);
+                      });
     state.last = seen.arms[a];
     state.connected = true;
   }

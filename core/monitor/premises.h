@@ -47,10 +47,9 @@ class PremiseCheck {
   // Returns false if the arm is not where its certificates assume: it deviates, moves without a
   // motion, or is beyond its authority.
   [[nodiscard]] bool is_as_certified(ArmId arm) const { return arms_[arm.index()].as_certified; }
-  // Returns true if the arm moved away from its rest and has not stood still for a while since.
-  [[nodiscard]] bool moved_from_rest(ArmId arm) const {
-    return arms_[arm.index()].violations[static_cast<std::size_t>(Kind::unplanned_motion)].holds;
-  }
+  // Returns true if the arm moved away from its rest and stands still again. An arm whose
+  // measurements are noisy beyond its tracking error does not stand still.
+  [[nodiscard]] bool rests_elsewhere(ArmId arm) const { return arms_[arm.index()].elsewhere; }
   // Returns the measured velocities of all joints (rad/s, m/s) in the last period.
   [[nodiscard]] const Configuration& velocity() const { return velocity_; }
 
@@ -81,6 +80,7 @@ class PremiseCheck {
     TimePoint still_since{};    // unplanned_motion: start of the present window
     double deviation = 0.0;
     bool as_certified = true;
+    bool elsewhere = false;  // rests_elsewhere()
     std::array<Violation, kValueCount<Kind>> violations;
   };
   void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
