@@ -6,28 +6,8 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
-#include "core/executive/observe.h"
-#include "core/trajectory/set_joints.h"
 
 namespace armloom {
-namespace {
-
-// Cause of the stop of an arm whose controller has not connected yet.
-const std::string kConnects = "waiting for its controller: ";
-
-MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
-  MonitorEvent event{.finding = finding, .text = sentence(finding, cell)};
-  if (finding.joint) event.joint = cell.joint(*finding.joint).name;
-  for (const auto& arm : {finding.arm, finding.proximity.arm_a, finding.proximity.arm_b}) {
-    if (arm && (event.arms.empty() || event.arms.front() != cell.arm(*arm).name)) {
-      event.arms.push_back(cell.arm(*arm).name);
-    }
-  }
-  event.stopped = each_name(cell, finding.stops);
-  return event;
-}
-
-}  // namespace
 
 Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
@@ -222,117 +202,6 @@ TimePoint Executive::Impl::settled_until() const {
                        execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
   return std::min(clock_.wake_at.value_or(TimePoint::max()), clock_.held.next());
-}
-
-// A motion that ended away from its goal has failed.
-void Executive::Impl::take(const MotionReport& report) {
-  const Job* job = scheduler_.find(report.job);
-  const bool is_watched = clock_.monitored && job != nullptr;
-  if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
-  const Motions& motions = execution_.motions();
-  std::vector<MonitorFinding> found;
-  for (const ArmId arm : job->trajectory->arms()) {
-    auto early = watch_.premises().finished(arm, *job->trajectory, motions.measured(), clock_.now);
-    if (early) found.push_back(std::move(*early));
-  }
-  if (found.empty()) return step(report);
-  MotionReport failed = report;
-  failed.kind = MotionReport::Kind::faulted;
-  failed.detail = sentence(found.front(), *cell_);
-  step(failed);
-  act_on(found);
-}
-
-void Executive::Impl::watch() {
-  publisher_.tell_watch();
-  const Motions& motions = execution_.motions();
-  const Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
-  std::vector<MonitorFinding> found = watch_.check_premises(seen);
-  std::vector<bool> moving;
-  for (ArmId arm : all_arms(*cell_)) {
-    moving.push_back(motions.moving(arm));
-    execution_.gate().leaves_path(arm, watch_.premises().deviation(arm));
-  }
-  if (watch_.look(seen.measured, moving, clock_.now)) {
-    count_.look(watch_.near().apart);
-    count_.look(watch_.near().at_mount);
-    found.insert(found.end(), watch_.found().begin(), watch_.found().end());
-  }
-  std::vector<bool> stopping(cell_->arms.size(), false);
-  for (const MonitorFinding& finding : found) {
-    for (const ArmId arm : finding.stops) stopping[arm.index()] = true;
-  }
-  for (MonitorFinding& ahead : watch_.look_ahead(seen, stopping, execution_.gate())) {
-    found.push_back(std::move(ahead));
-  }
-  act_on(found);
-  for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().rests_elsewhere(arm)) locate(arm);
-  }
-  publisher_.tell_state(watch_.near().apart, clock_.now);
-}
-
-// An arm whose link is lost comes to rest by itself, within its authority. It stays stopped until
-// it is resumed, also when the link is back.
-void Executive::Impl::watch_links() {
-  for (const LinkWatch::Change& change : links_.look(execution_.motions())) {
-    using Kind = LinkWatch::Change::Kind;
-    const std::string& arm = cell_->arm(change.arm).name;
-    switch (change.kind) {
-      case Kind::waits:
-        stop({change.arm}, kConnects + change.detail, Alert::Level::info);
-        break;
-      case Kind::lost:
-        stop({change.arm}, "link lost: " + change.detail);
-        break;
-      case Kind::connected: {
-        locate(change.arm);
-        const auto& cause = scheduler_.stop_cause(change.arm);
-        if (cause && cause->starts_with(kConnects)) resume({change.arm});
-        break;
-      }
-      case Kind::back:
-        publisher_.tell(Alert{Alert::Level::info, "arm " + arm +
-                                                      ": its controller reports again; the arm "
-                                                      "stays stopped until it is resumed"},
-                        clock_.now);
-        break;
-    }
-  }
-}
-
-// Tells the scheduler where an arm at rest really is, if that is not where it came to rest.
-void Executive::Impl::locate(ArmId arm) {
-  const ArmLink& link = execution_.motions().link(arm);
-  if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
-  std::vector<JointId> joints = cell_->arm(arm).joints;
-  joints.insert(joints.end(), cell_->arm(arm).gripper_joints.begin(),
-                cell_->arm(arm).gripper_joints.end());
-  const Eigen::VectorXd off = link.feedback().measured - joints_of(scheduler_.rest(), joints);
-  if (off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot)) return;
-  step(Located{arm, link.feedback().measured});
-}
-
-// Publishes the findings and stops their arms, each with the first finding that names it as cause.
-void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
-  std::vector<Stop::StoppedArm> stopped;
-  for (const MonitorFinding& finding : found) {
-    if (!finding.stops.empty()) count_.monitor_stop();
-    MonitorEvent event = event_of(finding, *cell_);
-    for (const ArmId arm : finding.stops) {
-      if (std::ranges::find(stopped, arm, &Stop::StoppedArm::arm) != stopped.end()) continue;
-      stopped.push_back({arm, "monitor: " + event.text});
-      // The scheduler brakes motions only.
-      const bool is_ignored = finding.kind == MonitorFinding::Kind::stop_ignored;
-      if (is_ignored) execution_.brake(arm, StopCategory::switch_off);
-      if (!is_ignored && !execution_.motions().trajectory(arm)) execution_.brake(arm);
-    }
-    publisher_.tell(std::move(event), clock_.now);
-  }
-  if (stopped.empty()) return;
-  const std::size_t count = stopped.size();
-  step(Stop(std::move(stopped)));
-  publisher_.tell_monitor_stop(count);
 }
 
 // ---- What is asked of all arms ----

@@ -45,6 +45,10 @@ class Motions {
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return link(arm).feedback(); }
   [[nodiscard]] const ArmLink& link(ArmId arm) const { return arms_[arm.index()].link; }
+  // Returns the joints of the arm and of its gripper, in the order of its reports.
+  [[nodiscard]] const std::vector<JointId>& joints(ArmId arm) const {
+    return arms_[arm.index()].controller->joints();
+  }
   // Positions of all joints in the last tick as they really were, where arms are simulated; else as
   // measured.
   [[nodiscard]] const Configuration& true_positions() const { return truth_; }

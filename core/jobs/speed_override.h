@@ -10,9 +10,9 @@
 namespace armloom {
 
 // Speed override: the largest share, 0 to 1, of the planned rate of motions. An operator sets one
-// share for the cell and one for each arm. An arm goes at cell share x arm share, but if
-// neither is 0, at kSmallestShare or more. A motion of
-// several arms goes at the smallest share of its arms, so that they keep in step.
+// share for the cell and one for each arm. An arm goes at cell share x arm share, but if neither is
+// 0, at kSmallestShare or more. A motion of several arms goes at the smallest share of its arms, so
+// that they keep in step.
 //
 // Also keeps the motion clock, by which backlog timeouts and aging are measured. It runs at the
 // smallest share of all arms, so that no job expires because its blocker was slowed down. It equals

@@ -22,7 +22,7 @@ std::vector<ListedFault> all() {
   const std::string away =
       "the monitor stops the arm past its authority: too late if another arm is within its braking "
       "distance";
-  const std::string tolerated = "nothing: the promises hold";
+  const std::string tolerated = "no stop: the promises hold";
   return {
       {"stall 0.5 s", {one(Kind::stall, 0, 500ms)}, waits},
       {"stall 5 s", {one(Kind::stall, 0, 5s)}, waits},
