@@ -52,8 +52,6 @@ class ArmLink {
   // Returns the last report, seen through the commands since: a motion that the controller has not
   // acknowledged is `waiting`, a motion that it has lost or rejected is a `fault`.
   [[nodiscard]] const ArmFeedback& feedback() const { return seen_; }
-  // Returns true if a report arrived in the last exchange().
-  [[nodiscard]] bool has_news() const { return has_news_; }
   // Reports that were ignored because they were malformed or older than an earlier one.
   [[nodiscard]] std::uint64_t ignored() const { return ignored_; }
 

@@ -16,12 +16,6 @@ std::string listed(const ControllerTypes& types) {
   return names;
 }
 
-Eigen::VectorXd home_of(const Cell& cell, const Arm& arm) {
-  std::vector<JointId> joints = arm.joints;
-  joints.insert(joints.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
-  return joints_of(cell.home(), joints);
-}
-
 }  // namespace
 
 ControllerTypes simulated_controllers() {
@@ -50,7 +44,8 @@ Result<std::vector<MadeController>> make_controllers(const CellPtr& cell,
                   "/robots/" + std::to_string(arm.robot.index()) + "/controller/type",
                   "unknown controller type \"" + type + "\"; known here: " + listed(types), type});
     }
-    auto controller = make->second(cell, ArmId{a}, home_of(*cell, arm), seed + a);
+    auto controller =
+        make->second(cell, ArmId{a}, joints_of(cell->home(), joints_and_gripper(arm)), seed + a);
     if (!controller) return failure(std::move(controller.error()));
     made.push_back(std::move(*controller));
   }

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/trajectory/set_joints.h"
+
 namespace armloom {
 namespace {
 
@@ -18,14 +20,11 @@ constexpr double kArrived_rad = 1e-5;
 
 SimulatedArm::SimulatedArm(CellPtr cell, ArmId arm, Eigen::VectorXd q_start, std::uint64_t seed)
     : cell_(std::move(cell)),
-      joints_(cell_->arm(arm).joints),
+      joints_(joints_and_gripper(cell_->arm(arm))),
       controller_(cell_->robots[cell_->arm(arm).robot.index()].controller),
       gaussian_(seed),
       motion_(cell_),
       position_(std::move(q_start)) {
-  const Arm& description = cell_->arm(arm);
-  joints_.insert(joints_.end(), description.gripper_joints.begin(),
-                 description.gripper_joints.end());
   if (position_.size() != static_cast<Eigen::Index>(joints_.size())) {
     throw std::logic_error("SimulatedArm: q_start has " + std::to_string(position_.size()) +
                            " entries for " + std::to_string(joints_.size()) + " joints");

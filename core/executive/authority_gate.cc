@@ -16,8 +16,7 @@ std::vector<AuthorityGuard::GuardedArm> guarded_arms(const Cell& cell) {
   std::vector<AuthorityGuard::GuardedArm> arms;
   for (const Arm& arm : cell.arms) {
     const Promises promises = promises_of(cell.robots[arm.robot.index()].controller);
-    std::vector<JointId>& joints = arms.emplace_back(arm.joints, promises.report_age()).joints;
-    joints.insert(joints.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
+    arms.push_back({joints_and_gripper(arm), promises.report_age()});
   }
   return arms;
 }

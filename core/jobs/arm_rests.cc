@@ -61,10 +61,7 @@ void ArmRests::come_to_rest(const Cell& cell, const TrajectoryPtr& motion,
 }
 
 void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position) {
-  std::vector<JointId> joints = cell.arm(arm).joints;
-  joints.insert(joints.end(), cell.arm(arm).gripper_joints.begin(),
-                cell.arm(arm).gripper_joints.end());
-  set_joints(rest_, joints, position);
+  set_joints(rest_, joints_and_gripper(cell.arm(arm)), position);
   places_at_[arm.index()] = places_.of(arm, part_of(cell.arm(arm), rest_));
   came_by_[arm.index()] = nullptr;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/coordination/tracking_errors.h"
+#include "core/trajectory/set_joints.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -90,10 +91,7 @@ double PremiseCheck::tracking_error(const Cell& cell, ArmId arm) {
 PremiseCheck::PremiseCheck(CellPtr cell) : cell_(std::move(cell)), arms_(cell_->arms.size()) {
   velocity_ = Configuration::Zero(static_cast<Eigen::Index>(cell_->joints.size()));
   for (std::size_t a = 0; a < arms_.size(); ++a) {
-    const Arm& arm = cell_->arms[a];
-    arms_[a].joints = arm.joints;
-    arms_[a].joints.insert(arms_[a].joints.end(), arm.gripper_joints.begin(),
-                           arm.gripper_joints.end());
+    arms_[a].joints = joints_and_gripper(cell_->arms[a]);
     arms_[a].rest = cell_->home();
     arms_[a].rested = true;
   }

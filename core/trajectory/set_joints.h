@@ -33,6 +33,13 @@ inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const T
   set_joints_of(q, cell, arm, motion, motion.goal());
 }
 
+// Returns the joints that the arm's controller moves: Arm::joints, then Arm::gripper_joints.
+[[nodiscard]] inline std::vector<JointId> joints_and_gripper(const Arm& arm) {
+  std::vector<JointId> joints = arm.joints;
+  joints.insert(joints.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
+  return joints;
+}
+
 // Returns the positions of these joints, in their order.
 [[nodiscard]] inline Eigen::VectorXd joints_of(const Configuration& q,
                                                const std::vector<JointId>& joints) {
