@@ -48,7 +48,7 @@ SCHEDULER = [
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
     ('only one of several regions of a pair applies', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
     ('motions under way are assumed to be at their ends', QUESTIONS, '                .progress = job.progress,\n                .to_come', '                .progress = FAULT && job.progress > Duration{} ? job.trajectory->duration() : job.progress,\n                .to_come'),
-    ('a start off the path is not reported', QUESTIONS, '  return follows ?', '  return follows || FAULT ?'),
+    ('a start off the path is not reported', QUESTIONS, '    if (off_arm > error) off =', '    if (off_arm > error && !FAULT) off ='),
     ('a motion that the checker rejects is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
 ]
 
