@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/arm/braking_curve.h"
-#include "core/arm/rate_law.h"
+#include "core/trajectory/braking_curve.h"
+#include "core/trajectory/rate_law.h"
 
 namespace armloom {
 

@@ -84,6 +84,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     const auto written = [this](JobId job) {
       note({ExecutiveInput::StartWritten{job}});
+      step(StartRecorded{job});
       const Job* started = scheduler_.find(job);
       return started != nullptr && started->in<Moving>() != nullptr;
     };

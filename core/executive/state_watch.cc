@@ -48,8 +48,8 @@ std::string sentence(const MonitorFinding& finding, const Cell& cell) {
     case Kind::early_finish:
       return arm + " finished away from its goal: " + about_joint(finding, cell);
     case Kind::beyond_authority:
-      return arm + " passed its authority: at " + figure("%.3f s", finding.value) +
-             " of its motion, permitted " + limit;
+      return arm + " passes its authority: it can rest at " + figure("%.3f s", finding.value) +
+             " of its motion at the earliest, permitted " + limit;
     case Kind::stop_ignored:
       return arm + " still moves " + figure("%.3f s", finding.value) +
              " after it was told to brake, limit " + limit + ": its drives are switched off";

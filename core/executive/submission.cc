@@ -70,6 +70,7 @@ void Executive::Impl::enter(Submit submitted, JobLabel label) {
   label.bytes = submitted.alternatives.empty() ? submitted.trajectory->bytes()
                                                : bytes_of(submitted.alternatives);
   jobs_.add(submitted.job, std::move(label));
+  submitted.start_is_recorded = !submitted.system_job && execution_.starts().has_log();
   step(submitted);
 }
 

@@ -42,6 +42,12 @@ struct Submit {
   // The job was left over from an earlier session. Its start is not compared with the position of
   // its arms while one of them is stopped.
   bool is_held_over = false;
+  // The job does not move before StartRecorded, and cannot overrun until then.
+  bool start_is_recorded = false;
+};
+// The start of a job that waits for it is on disk: its arms can move.
+struct StartRecorded {
+  JobId job;
 };
 struct Cancel {
   JobId job;
@@ -140,7 +146,7 @@ struct Interrupt {
 // The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
-using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
+using Input = std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
                            Resume, Located, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----

@@ -186,6 +186,7 @@ struct Job {
   std::vector<JobId> after = {};  // jobs of Submit::after that have not ended yet
   bool system_job = false;        // as in Submit
   bool is_held_over = false;
+  bool awaits_record = false;  // StartRecorded
   // As in Submit. `trajectory` is one of them, and may change to another until admission. Empty
   // once the arm is decided.
   std::vector<TrajectoryPtr> alternatives = {};

@@ -88,6 +88,7 @@ Record record_of(State& state, const Submit& job) {
                         .after = job.after,
                         .system_job = job.system_job,
                         .is_held_over = job.is_held_over,
+                        .awaits_record = job.start_is_recorded,
                         .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,

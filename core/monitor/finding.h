@@ -18,7 +18,7 @@ struct MonitorFinding {
     deviation,             // an arm left its path
     unplanned_motion,      // an arm without a motion leaves the position where it rested
     early_finish,          // a controller reported "finished" away from the goal
-    beyond_authority,      // an arm passed its authority
+    beyond_authority,      // an arm passed its authority, or cannot rest there any more
     stop_ignored,          // an arm still moves although it was told to brake
     late_feedback,         // no new feedback within the controller's timeout
     frozen_feedback,       // new feedback, but positions do not follow the commanded progress

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/trajectory/stopping_reach.h"
-
 namespace armloom {
 namespace {
 
@@ -19,7 +17,6 @@ LookAhead::LookAhead(CellPtr cell, Duration period)
     : cell_(std::move(cell)),
       period_(period),
       off_path_(cell_->arms.size()),
-      stopping_reach_(cell_->arms.size()),
       paces_(cell_->arms.size()) {}
 
 // ---- Where arms can get ----
@@ -53,18 +50,15 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   const double highest = keeps_rate ? std::min(1.0, *rate * (1.0 + kRateChange)) : 1.0;
   Duration brakes_to{}, goes_to{};
   if (now.motion) {
-    StoppingReach& known = stopping_reach_[arm.index()];
-    if (known.motion != now.motion) {
-      known = {now.motion, from_seconds(stopping_reach_s(*cell_, *now.motion))};
-    }
     reach.motion = now.motion;
     reach.from = std::min(now.measured, now.motion->duration());
-    const Duration end = std::max(reach.from, std::min(now.authority, now.motion->duration()));
+    const Duration limit = premises.keeps_authority(arm) ? now.authority : now.motion->duration();
+    const Duration end = std::max(reach.from, std::min(limit, now.motion->duration()));
     // Progress at the highest rate until the brake takes effect. The way of a brake grows with the
     // square of the rate.
     const Duration commanded = std::max(now.commanded, now.measured);
     const Duration way = from_seconds(highest * to_seconds(controller.reaction) +
-                                      highest * highest * to_seconds(known.reach));
+                                      highest * highest * to_seconds(premises.stopping_reach(arm)));
     brakes_to = now.rests ? reach.from : std::min(end, commanded + way);
     if (now.brakes && now.rests_at) {
       brakes_to = std::clamp(*now.rests_at, reach.from, now.motion->duration());

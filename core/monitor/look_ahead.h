@@ -81,11 +81,6 @@ class LookAhead {
     TimePoint time{};
   };
   std::vector<std::optional<OffPath>> off_path_;  // by ArmId; of the last period
-  struct StoppingReach {
-    TrajectoryPtr motion;
-    Duration reach{};
-  };
-  std::vector<StoppingReach> stopping_reach_;  // by ArmId; of the last motion
   struct Pace {
     TrajectoryPtr motion;
     Duration commanded{};

@@ -6,7 +6,6 @@
 
 #include "core/coordination/tracking_errors.h"
 #include "core/trajectory/set_joints.h"
-#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 namespace {
@@ -88,7 +87,8 @@ double PremiseCheck::tracking_error(const Cell& cell, ArmId arm) {
   return cell.tracking_error(cell.arm(arm).robot);
 }
 
-PremiseCheck::PremiseCheck(CellPtr cell) : cell_(std::move(cell)), arms_(cell_->arms.size()) {
+PremiseCheck::PremiseCheck(CellPtr cell)
+    : cell_(std::move(cell)), arms_(cell_->arms.size(), ArmState{EarliestRest(cell_)}) {
   velocity_ = Configuration::Zero(static_cast<Eigen::Index>(cell_->joints.size()));
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     arms_[a].joints = joints_and_gripper(cell_->arms[a]);
@@ -105,7 +105,7 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
   for (std::uint32_t a = 0; a < arms_.size(); ++a) {
     const ArmId arm{a};
     ArmState& state = arms_[a];
-    state.as_certified = true;
+    state.as_certified = state.keeps_authority = true;
     state.deviation = 0.0;
     if (!seen.arms[a].is_connected) {
       state.rested = state.connected = false;
@@ -190,6 +190,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
           found);
   }
   state.fresh_at = std::max(state.fresh_at, fresh_at);
+  if (now.motion) state.earliest_rest.observe(now, fresh_at);
 
   // Positions that stay while the commanded progress goes on.
   const bool changed = !time_ || std::ranges::any_of(state.joints, [&](JointId joint) {
@@ -244,8 +245,9 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
   const bool deviates = far.distance > far_limit;
   if (deviates) state.deviation = far.distance;
 
-  const bool passed = now.measured > now.authority;
-  state.as_certified = state.as_certified && !deviates && !passed;
+  const Duration rests_at = state.earliest_rest.beyond(now);
+  state.keeps_authority = rests_at <= now.authority;
+  state.as_certified = state.as_certified && !deviates && state.keeps_authority;
   judge(arm, deviates, false,
         {.kind = Kind::deviation,
          .time = seen.time,
@@ -253,10 +255,10 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
          .value = far.distance,
          .limit = far_limit},
         found);
-  judge(arm, passed, false,
+  judge(arm, !state.keeps_authority, false,
         {.kind = Kind::beyond_authority,
          .time = seen.time,
-         .value = to_seconds(now.measured),
+         .value = to_seconds(rests_at),
          .limit = to_seconds(now.authority)},
         found);
 }
@@ -274,14 +276,9 @@ void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
   const Duration told = seen.time - *now.told_to_brake;
   const Duration allowance =
       controller.reaction + controller.feedback_period + kSettles * controller.lag;
-  bool is_ignored = told > allowance;
-  if (is_ignored) {  // the reach takes longer to compute
-    const double limit_s = to_seconds(allowance) + 2.0 * stopping_reach_s(*cell_, *now.motion);
-    finding.value = to_seconds(told);
-    finding.limit = limit_s;
-    is_ignored = finding.value > limit_s;
-  }
-  judge(arm, is_ignored, false, std::move(finding), found);
+  finding.value = to_seconds(told);
+  finding.limit = to_seconds(allowance + 2 * stopping_reach(arm));
+  judge(arm, finding.value > finding.limit, false, std::move(finding), found);
 }
 
 void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/enumeration.h"
+#include "core/monitor/earliest_rest.h"
 #include "core/monitor/finding.h"
 #include "core/monitor/observation.h"
 
@@ -25,8 +26,8 @@ struct PathDistance {
                                               double enough);
 
 // Checks on measured data what certificates take for granted: each joint stays close to its path or
-// rest, no arm passes its authority, and feedback is new and plausible. A lagging arm is no
-// violation. Pure; deterministic; not thread-safe.
+// rest, each arm can come to rest at its authority, and feedback is new and plausible. A lagging
+// arm is no violation. Pure; deterministic; not thread-safe.
 class PremiseCheck {
  public:
   using Kind = MonitorFinding::Kind;
@@ -45,8 +46,14 @@ class PremiseCheck {
   // of the last check().
   [[nodiscard]] double deviation(ArmId arm) const { return arms_[arm.index()].deviation; }
   // Returns false if the arm is not where its certificates assume: it deviates, moves without a
-  // motion, or is beyond its authority.
+  // motion, or does not keep its authority.
   [[nodiscard]] bool is_as_certified(ArmId arm) const { return arms_[arm.index()].as_certified; }
+  // Returns false if the arm is beyond its authority, or cannot come to rest there any more.
+  [[nodiscard]] bool keeps_authority(ArmId arm) const { return arms_[arm.index()].keeps_authority; }
+  // Returns the longest way from a brake to the rest on the arm's motion, which it must have.
+  [[nodiscard]] Duration stopping_reach(ArmId arm) const {
+    return arms_[arm.index()].earliest_rest.stopping_reach();
+  }
   // Returns true if the arm moved away from its rest and stands still again. An arm whose
   // measurements are noisy beyond its tracking error does not stand still.
   [[nodiscard]] bool rests_elsewhere(ArmId arm) const { return arms_[arm.index()].elsewhere; }
@@ -69,19 +76,21 @@ class PremiseCheck {
     bool has_rested = false;  // since it was reported
   };
   struct ArmState {
-    std::vector<JointId> joints;  // of the arm and its gripper
-    Configuration rest;           // by JointId, where each joint rests
-    bool rested = false;          // in the last check
-    bool connected = false;       // likewise
-    ArmObservation last;
+    EarliestRest earliest_rest;
+    std::vector<JointId> joints = {};  // of the arm and its gripper
+    Configuration rest = {};           // by JointId, where each joint rests
+    bool rested = false;               // in the last check
+    bool connected = false;            // likewise
+    ArmObservation last = {};
     TimePoint fresh_at{};       // time of the last new feedback
     TimePoint changed_at{};     // when the positions last changed
     Duration commanded_then{};  // commanded progress then
     TimePoint still_since{};    // unplanned_motion: start of the present window
     double deviation = 0.0;
     bool as_certified = true;
+    bool keeps_authority = true;
     bool elsewhere = false;  // rests_elsewhere()
-    std::array<Violation, kValueCount<Kind>> violations;
+    std::array<Violation, kValueCount<Kind>> violations = {};
   };
   void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);

@@ -14,7 +14,7 @@ namespace {
 // Its time has passed, and it stands still.
 bool overruns(Job& job, TimePoint now) {
   auto* moving = std::get_if<Moving>(&job.phase);
-  if (moving == nullptr || now < moving->overrun_at) return false;
+  if (moving == nullptr || job.awaits_record || now < moving->overrun_at) return false;
   moving->overrun_at = std::max(moving->overrun_at, moving->moved_at + kStandstill);
   return now >= moving->overrun_at;
 }
@@ -59,7 +59,7 @@ std::optional<TimePoint> deadline_of(const State& state, const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
   const auto expiry = expiry_of(state, job);
   const auto* moving = job.in<Moving>();
-  if (moving == nullptr) return expiry;
+  if (moving == nullptr || job.awaits_record) return expiry;
   return expiry ? std::min(moving->overrun_at, *expiry) : moving->overrun_at;
 }
 

@@ -114,6 +114,12 @@ void take(State& state, const Located& input) {
   }
   compare_again(state);
 }
+void take(State& state, const StartRecorded& input) {
+  Record* record = state.jobs.find(input.job);
+  if (record == nullptr) return;
+  record->job.awaits_record = false;
+  renew_clocks(state, record->job, true);
+}
 void take(State& state, const SetSpeed& input) { set_speed(state, input); }
 
 void take(State& state, const SceneChanged& input) {

@@ -12,16 +12,6 @@
 namespace armloom {
 namespace {
 
-// The pace is measured anew, and a time at rest at share 0 is no standstill.
-void renew_clocks(const State& state, Job& job, bool rested) {
-  auto* moving = std::get_if<Moving>(&job.phase);
-  if (moving == nullptr) return;
-  moving->overrun_at = overrun_after(state, job);
-  moving->goes_since = state.now;
-  moving->goes_from = job.progress;
-  if (rested) moving->moved_at = state.now;
-}
-
 void renew_starts(State& state) {
   for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
     Record& record = state.jobs.at(leg.job);
@@ -33,6 +23,15 @@ void renew_starts(State& state) {
 }
 
 }  // namespace
+
+void renew_clocks(const State& state, Job& job, bool rested) {
+  auto* moving = std::get_if<Moving>(&job.phase);
+  if (moving == nullptr) return;
+  moving->overrun_at = overrun_after(state, job);
+  moving->goes_since = state.now;
+  moving->goes_from = job.progress;
+  if (rested) moving->moved_at = state.now;
+}
 
 void set_speed(State& state, const SetSpeed& input) {
   if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-constexpr double kDecelerationMax_1_s = 50.0;  // as in core/arm/rate_law.h
+constexpr double kDecelerationMax_1_s = 50.0;  // as in core/trajectory/rate_law.h
 constexpr double kDecelerationMin_1_s = 1e-3;
 
 // Long segments are divided into stretches: a joint's top speed and acceleration rarely coincide.

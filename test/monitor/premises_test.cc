@@ -195,14 +195,56 @@ TEST(Premises, CompareARestingArmWithTheGoalOfItsMotion) {
 TEST(Premises, ReportProgressBeyondAuthority) {
   Watched w;
   w.start();
-  w.arm().authority = 500ms;
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  w.on_path(510ms);
+  w.arm().authority = 5ms;
+  w.on_path(10ms);
   const auto found = w.look();
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found[0].kind, Kind::beyond_authority);
-  EXPECT_EQ(found[0].value, 0.51);
-  EXPECT_EQ(found[0].limit, 0.5);
+  EXPECT_EQ(found[0].value, 0.01);
+  EXPECT_EQ(found[0].limit, 0.005);
+  EXPECT_FALSE(w.premises.keeps_authority(kArm));
+}
+
+// Joint 0 moves at 1 rad/s and brakes with 10 rad/s^2, in 50 ms of the motion.
+TEST(Premises, ReportAnArmThatCannotComeToRestAtItsAuthority) {
+  Watched w;
+  w.start();
+  w.arm().authority = 500ms;
+  ASSERT_THAT(w.follow(10ms, 450ms), IsEmpty());
+  const auto found = w.follow(460ms, 470ms);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].kind, Kind::beyond_authority);
+  EXPECT_GT(found[0].value, 0.501);
+  EXPECT_LT(found[0].value, 0.521);
+  EXPECT_FALSE(w.premises.is_as_certified(kArm));
+}
+
+TEST(Premises, AcceptTheHardestBrakeToTheAuthority) {
+  Watched w;
+  w.start();
+  w.arm().authority = 500ms;
+  ASSERT_THAT(w.follow(10ms, 450ms), IsEmpty());
+  for (int tick = 1; tick <= 10; ++tick) {
+    const double left_s = 0.1 - 0.01 * tick;
+    w.on_path(500ms - from_seconds(5.0 * left_s * left_s));
+    EXPECT_THAT(w.look(), IsEmpty()) << tick;
+  }
+}
+
+// At half the planned rate the arm brakes in 12.5 ms of the motion.
+TEST(Premises, TakeTheRateFromTheTimesOfTheReports) {
+  Watched w;
+  w.start();
+  w.arm().authority = 500ms;
+  for (Duration at = 5ms; at <= 470ms; at += 5ms) {
+    w.on_path(at);
+    ASSERT_THAT(w.look(), IsEmpty());
+  }
+  w.arm().feedback_age = 10ms;
+  ASSERT_THAT(w.look(), IsEmpty());
+  w.arm().feedback_age = 0ms;
+  w.on_path(480ms);  // 20 ms after the last report
+  EXPECT_THAT(w.look(), IsEmpty());
 }
 
 TEST(Premises, ReportAnArmThatIgnoresItsStop) {

@@ -54,6 +54,19 @@ TEST(StartLog, NoArmMovesBeforeItsStartIsStored) {
   }
 }
 
+// The disk hangs for longer than the job may take.
+TEST(StartLog, AStartThatIsStoredLateIsNoOverrun) {
+  SlowLog starts;
+  Restarted cell(&starts);
+  cell.submit(slide("x", -1, 1, 4, "go"));
+  cell.run_until(at(60s));
+  EXPECT_EQ(cell.job("go").state, JobState::scheduled);
+  starts.write_all();
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("go").state, JobState::succeeded);
+  EXPECT_EQ(cell.x(), 1.0);
+}
+
 TEST(StartLog, JobStoppedMeanwhileContinuesWhenResumed) {
   SlowLog starts;
   Restarted cell(&starts);

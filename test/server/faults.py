@@ -14,7 +14,7 @@ HEAD, FRAMING, ROUTER = 'server/http/request_head.cc', 'server/http/framing.cc',
 LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc'
 PREMISES, AHEAD, STOPS = 'core/monitor/premises.cc', 'core/monitor/look_ahead.cc', 'core/monitor/stop_set.cc'
 MONITOR, HUB, FAULTY = 'core/monitor/present.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
-PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/arm/rate_law.cc'
+PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/trajectory/rate_law.cc'
 
 # Faults by the test program that runs first. If it does not find a fault, the other programs run.
 FAULTS = {'server_store_test': [

@@ -1,4 +1,4 @@
-#include "core/arm/rate_law.h"
+#include "core/trajectory/rate_law.h"
 
 #include <algorithm>
 #include <cmath>

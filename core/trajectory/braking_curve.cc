@@ -1,4 +1,4 @@
-#include "core/arm/braking_curve.h"
+#include "core/trajectory/braking_curve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/arm/rate_law.h"
+#include "core/trajectory/rate_law.h"
 
 namespace armloom {
 
