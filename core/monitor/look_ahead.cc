@@ -95,7 +95,8 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     }
     for (const JointId joint : premises.joints(arm)) {
       const auto j = static_cast<Eigen::Index>(joint.index());
-      const double speed = std::abs(off.velocity[j]);
+      const double speed =
+          std::min(std::abs(off.velocity[j]), PremiseCheck::velocity_limit(*cell_, joint));
       const double more = speed * to_seconds(controller.reaction) +
                           speed * speed / (2.0 * cell_->joint(joint).brake);
       reach.shift[j] = off.shift[j] + std::copysign(0.5 * more, off.velocity[j]);

@@ -58,7 +58,8 @@ class LookAhead {
     bool may_go_on = false;  // a stop now makes a difference
     bool is_still = true;    // neither moves nor may move
   };
-  // Returns the reaches of an arm. `is_stopping`: it is stopped in this period.
+  // Returns the reaches of an arm. `is_stopping`: it is stopped in this period. Precondition:
+  // `premises` have checked `seen`.
   [[nodiscard]] ArmReach reach_of(ArmId arm, const Observation& seen, const PremiseCheck& premises,
                                   bool is_stopping);
 

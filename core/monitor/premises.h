@@ -8,22 +8,9 @@
 #include "core/monitor/earliest_rest.h"
 #include "core/monitor/finding.h"
 #include "core/monitor/observation.h"
+#include "core/monitor/path_distance.h"
 
 namespace armloom {
-
-// The joint that is farthest from a path, at the progress where the largest distance is smallest.
-struct PathDistance {
-  double distance = 0.0;  // rad, m
-  JointId joint{0};
-  Duration progress{};
-};
-// Returns how far the arm's joints are from one common point of the motion between the progress
-// `from` and `to`. At most `enough` if such a point exists; else exact to 1 %. `joints`: joints of
-// the arm; those that the motion does not move are ignored. Pure.
-[[nodiscard]] PathDistance distance_from_path(const Trajectory& motion,
-                                              const std::vector<JointId>& joints, Duration from,
-                                              Duration to, const Configuration& measured,
-                                              double enough);
 
 // Checks on measured data what certificates take for granted: each joint stays close to its path or
 // rest, each arm can come to rest at its authority, and feedback is new and plausible. A lagging
@@ -69,6 +56,8 @@ class PremiseCheck {
   }
 
   [[nodiscard]] static double tracking_error(const Cell& cell, ArmId arm);
+  // Returns how fast a joint can move (rad/s, m/s). Positions that change faster are wrong.
+  [[nodiscard]] static double velocity_limit(const Cell& cell, JointId joint);
 
  private:
   struct Violation {

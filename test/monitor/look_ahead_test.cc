@@ -85,6 +85,10 @@ struct Ahead {
     }
     return ahead.check(seen, premises, stopping, certificates, line);
   }
+  Duration goes_to(ArmId arm) {
+    EXPECT_THAT(premises.check(seen), IsEmpty());
+    return ahead.reach_of(arm, seen, premises, false).going.to;
+  }
   CellPtr cell;
   PremiseCheck premises{cell};
   LookAhead ahead{cell, kPeriod};
@@ -135,7 +139,7 @@ TEST(LookAhead, StopsOneOfTwoArmsIfThatIsEnough) {
   a.line.signs = {1.0, -1.0};
   a.on_path(0, 500ms);
   a.on_path(1, 500ms);
-  const Duration going = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, false).going.to;
+  const Duration going = a.goes_to(ArmId{0});
   a.line.bases = {0.0, 2 * to_seconds(going) + 0.01 - 0.005};
   const auto found = a.look();
   ASSERT_THAT(found, SizeIs(1));
@@ -147,7 +151,7 @@ TEST(LookAhead, StopsBothArmsIfOneIsNotEnough) {
   a.line.signs = {1.0, -1.0};
   a.on_path(0, 500ms);
   a.on_path(1, 500ms);
-  const Duration going = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, false).going.to;
+  const Duration going = a.goes_to(ArmId{0});
   a.line.bases = {0.0, 2 * to_seconds(going) + 0.01 - 0.015};
   EXPECT_THAT(a.look().at(0).stops, ElementsAre(ArmId{0}, ArmId{1}));
 }
@@ -158,7 +162,7 @@ TEST(LookAhead, StopsTheArmBetweenTwoOthersOnly) {
   for (std::uint32_t arm : {0U, 1U, 2U}) a.on_path(arm, 500ms);
   // Arm 2 follows close behind arm 0 and arm 1, which are at the same place but ask for nothing:
   // stopping either of them does not help the other.
-  const Duration going = a.ahead.reach_of(ArmId{2}, a.seen, a.premises, false).going.to;
+  const Duration going = a.goes_to(ArmId{2});
   const double reach_m = to_seconds(going) - 0.5;
   a.line.bases = {reach_m + 0.01 - 0.005, -10.0, 0.0};
   const auto found = a.look();
