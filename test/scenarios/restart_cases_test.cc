@@ -59,7 +59,7 @@ TEST(StartLog, AStartThatIsStoredLateIsNoOverrun) {
   SlowLog starts;
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
-  cell.run_until(at(60s));
+  cell.run_until(at(40s));
   EXPECT_EQ(cell.job("go").state, JobState::scheduled);
   starts.write_all();
   cell.run_to_the_end();
