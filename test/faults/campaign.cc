@@ -19,7 +19,8 @@ const std::vector<std::string> kPolicies{"coordinated", "earliest_start", "certi
                                          "reservation", "lockstep",       "sequential"};
 
 struct Options {
-  std::string fault;  // all if empty
+  std::string fault;   // all if empty
+  std::string policy;  // by seed if empty
   std::uint64_t seeds = 100, first = 1;
   bool monitored = true, verbose = false;
   double hours = 0.0;  // above zero: long runs instead of the list
@@ -104,7 +105,7 @@ Row run(const FaultRunPlan& plan, const Options& options) {
 FaultRunPlan plan_of(std::uint64_t seed, const Options& options) {
   return {.seed = seed,
           .world = seed % 5 == 0 ? RandomWorld::pandas : RandomWorld::sliders,
-          .policy = kPolicies[seed % kPolicies.size()],
+          .policy = options.policy.empty() ? kPolicies[seed % kPolicies.size()] : options.policy,
           .faulty = options.faulty,
           .monitored = options.monitored,
           .verbose = options.verbose};
@@ -175,6 +176,8 @@ int main(int count, char** words) {
     }
     if (word == "--fault") {
       options.fault = value();
+    } else if (word == "--policy") {
+      options.policy = value();
     } else if (word == "--seeds") {
       options.seeds = std::strtoull(value().c_str(), nullptr, 10);
     } else if (word == "--first-seed") {
@@ -189,8 +192,8 @@ int main(int count, char** words) {
       options.verbose = true;
     } else {
       std::fprintf(stderr,
-                   "usage: fault_campaign [--list] [--fault NAME] [--seeds N] [--first-seed N] "
-                   "[--hours H [--no-faults]] [--monitor-off] [--verbose]\n");
+                   "usage: fault_campaign [--list] [--fault NAME] [--policy NAME] [--seeds N] "
+                   "[--first-seed N] [--hours H [--no-faults]] [--monitor-off] [--verbose]\n");
       return 2;
     }
   }

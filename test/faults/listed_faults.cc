@@ -20,8 +20,7 @@ std::vector<ListedFault> all() {
   const std::string off_path =
       "the monitor stops the arm at `tracking_error_rad`, and others that it may hit";
   const std::string away =
-      "the monitor stops the arm past its authority: too late if another arm is within its braking "
-      "distance";
+      "the monitor stops the arm when it can no longer come to rest at its authority";
   const std::string tolerated = "no stop: the promises hold";
   return {
       {"stall 0.5 s", {one(Kind::stall, 0, 500ms)}, waits},
