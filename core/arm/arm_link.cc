@@ -158,6 +158,7 @@ void ArmLink::hear(const ArmFeedback& report, TimePoint now) {
   }
   fastest_ = std::min(fastest_.value_or(took), took);
   heard_ = report;
+  heard_over_ = connection_;
   measured_at_ = TimePoint(report.controller_time + *fastest_);
   has_news_ = true;
   std::erase_if(sent_,

@@ -49,6 +49,8 @@ class ArmLink {
   [[nodiscard]] const std::string& detail() const { return detail_; }
   // Age of the last report at the last exchange(); Duration::max() before the first.
   [[nodiscard]] Duration age() const { return age_; }
+  // The connection over which the last report came (ArmConnection::number); 0 before the first.
+  [[nodiscard]] std::uint64_t connection() const { return heard_over_; }
   // Returns the last report, seen through the commands since: a motion that the controller has not
   // acknowledged is `waiting`, a motion that it has lost or rejected is a `fault`.
   [[nodiscard]] const ArmFeedback& feedback() const { return seen_; }
@@ -91,6 +93,7 @@ class ArmLink {
   CommandNumber released_ = 0;  // number of the last release
 
   ArmFeedback heard_;  // the last report
+  std::uint64_t heard_over_ = 0;
   ArmFeedback seen_;
   std::optional<Duration> fastest_;  // smallest arrival time minus controller_time
   TimePoint measured_at_{};

@@ -34,6 +34,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .told_to_brake = motions.told_to_brake(arm),
         .rests_at = feedback.rests_at,
         .off_path = position.off_path,
+        .reported = {link.connection(), feedback.controller_time},
         .feedback_age = link.age(),
     });
   }

@@ -14,20 +14,21 @@ constexpr Duration kSlack = std::chrono::milliseconds(1);
 
 }  // namespace
 
-void EarliestRest::observe(const ArmObservation& now, TimePoint fresh_at) {
+void EarliestRest::observe(const ArmObservation& now) {
+  const std::optional<Duration> elapsed = since(last_at_, now.reported);
   if (now.motion != motion_) {
     motion_ = now.motion;
     reach_ = from_seconds(stopping_reach_s(*cell_, *motion_));
     law_.follow(motion_);
     before_ = now.commanded;
     rate_ = 0.0;
-  } else if (fresh_at > last_at_) {
+  } else if (elapsed) {
     before_ = std::min(last_, now.commanded);
-    const double rate = to_seconds(now.commanded - last_) / to_seconds(fresh_at - last_at_);
+    const double rate = to_seconds(now.commanded - last_) / to_seconds(*elapsed);
     rate_ = std::clamp(rate, 0.0, 1.0);
   }
   last_ = now.commanded;
-  last_at_ = std::max(last_at_, fresh_at);
+  last_at_ = now.reported;
 }
 
 // The arm had the mean rate somewhere between the two reports: at the first one, it could rest

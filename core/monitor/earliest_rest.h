@@ -11,9 +11,8 @@ class EarliestRest {
  public:
   explicit EarliestRest(CellPtr cell) : cell_(cell), law_(std::move(cell)) {}
 
-  // Takes what is known of the arm in this period. `fresh_at`: when its last report was measured.
-  // Precondition: the arm has a motion.
-  void observe(const ArmObservation& now, TimePoint fresh_at);
+  // Takes what is known of the arm in this period. Precondition: the arm has a motion.
+  void observe(const ArmObservation& now);
   // Returns the progress where the arm can rest at the earliest, if that is beyond its authority.
   // Else it returns the measured progress.
   [[nodiscard]] Duration beyond(const ArmObservation& now);
@@ -27,7 +26,7 @@ class EarliestRest {
   Duration reach_{};
   // The commanded progress of the last two reports, and the mean rate between them.
   Duration before_{}, last_{};
-  TimePoint last_at_{};
+  ReportTime last_at_;
   double rate_ = 0.0;
 };
 

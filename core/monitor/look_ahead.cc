@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/model/promises.h"
 
 namespace armloom {
 namespace {
@@ -22,18 +25,21 @@ LookAhead::LookAhead(CellPtr cell, Duration period)
 // ---- Where arms can get ----
 
 // Returns the commanded rate of progress: trajectory time per time, one as planned. A motion that
-// has just begun is assumed to go as planned until the next period.
-std::optional<double> LookAhead::rate_of(ArmId arm, const Observation& seen) {
-  const ArmObservation& now = seen.arms[arm.index()];
-  Pace& pace = paces_[arm.index()];
+// has just begun is assumed to go as planned until the next report. An arm whose report is overdue
+// may have any rate.
+std::optional<double> LookAhead::rate_of(const ArmObservation& now, std::optional<Duration> elapsed,
+                                         Duration overdue, Pace& pace) const {
   if (pace.motion != now.motion) {
-    pace = {now.motion, now.commanded, seen.time};
+    pace.rate.reset();
     if (now.commanded <= period_) pace.rate = now.speed;
-  } else if (seen.time > pace.time) {
-    const double rate =
-        to_seconds(now.commanded - pace.commanded) / to_seconds(seen.time - pace.time);
-    pace = {now.motion, now.commanded, seen.time, std::clamp(rate, 0.0, 1.0)};
+  } else if (elapsed) {
+    const double rate = to_seconds(now.commanded - pace.commanded) / to_seconds(*elapsed);
+    pace.rate = std::clamp(rate, 0.0, 1.0);
+  } else if (now.feedback_age > overdue) {
+    pace.rate.reset();
   }
+  pace.motion = now.motion;
+  pace.commanded = now.commanded;
   return pace.rate;
 }
 
@@ -45,7 +51,11 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   Reach reach{.arm = arm, .rest = seen.measured, .shift = zero, .error = zero};
   ArmReach result{.braking = reach, .going = reach, .is_still = false};
 
-  const std::optional<double> rate = rate_of(arm, seen);
+  Pace& pace = paces_[arm.index()];
+  const std::optional<Duration> elapsed =
+      since(std::exchange(pace.reported, now.reported), now.reported);
+  const std::optional<double> rate =
+      rate_of(now, elapsed, promises_of(controller).until_told(), pace);
   const bool keeps_rate = rate && *rate >= kStands;
   const double highest = keeps_rate ? std::min(1.0, *rate * (1.0 + kRateChange)) : 1.0;
   Duration brakes_to{}, goes_to{};
@@ -75,7 +85,7 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   if (premises.is_as_certified(arm)) {
     off_path_[arm.index()].reset();
   } else {
-    OffPath off{zero, premises.velocity(), seen.time};
+    OffPath off{zero, premises.velocity()};
     if (now.motion) {
       const PathDistance near = premises.nearest(arm, seen);
       reach.from = std::min(near.progress, brakes_to);
@@ -88,9 +98,10 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
         if (cell_->joint(joint).arm != arm) continue;
         const auto j = static_cast<Eigen::Index>(joint.index());
         off.shift[j] = seen.measured[j] - path[static_cast<Eigen::Index>(row)];
-        const double since_s = to_seconds(before ? seen.time - before->time : period_);
         const double then = before ? before->shift[j] : 0.0;
-        off.velocity[j] = since_s > 0.0 ? (off.shift[j] - then) / since_s : before->velocity[j];
+        const double since_s = to_seconds(elapsed.value_or(period_));
+        off.velocity[j] =
+            before && !elapsed ? before->velocity[j] : (off.shift[j] - then) / since_s;
       }
     }
     for (const JointId joint : premises.joints(arm)) {

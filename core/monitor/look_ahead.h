@@ -79,16 +79,19 @@ class LookAhead {
   struct OffPath {
     Configuration shift;     // measured distance of each joint from the path
     Configuration velocity;  // of the shift, or of a joint without a path
-    TimePoint time{};
   };
   std::vector<std::optional<OffPath>> off_path_;  // by ArmId; of the last period
   struct Pace {
     TrajectoryPtr motion;
     Duration commanded{};
-    TimePoint time{};
-    std::optional<double> rate = {};  // nullopt in the first period of a motion
+    ReportTime reported;
+    std::optional<double> rate = {};  // nullopt: any
   };
-  [[nodiscard]] std::optional<double> rate_of(ArmId arm, const Observation& seen);
+  // `elapsed`: since the report before; nullopt if there is no new one. `overdue`: a report that is
+  // older.
+  [[nodiscard]] std::optional<double> rate_of(const ArmObservation& now,
+                                              std::optional<Duration> elapsed, Duration overdue,
+                                              Pace& pace) const;
   std::vector<Pace> paces_;      // by ArmId; of the last period
   std::set<Conflicting> known_;  // predicted in the last period
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,21 @@
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
+
+// When a controller measured a report, on its own clock, which starts anywhere. Cell time cannot
+// tell how much time passed between two reports: a busy server takes several reports at once, and
+// its cell time slips.
+struct ReportTime {
+  std::uint64_t connection = 0;
+  Duration at{};
+};
+// Returns the time between the measurements of two reports; nullopt if `now` is not the later one,
+// or if they came over two connections: the controller's clock may have been restarted.
+[[nodiscard]] inline std::optional<Duration> since(const ReportTime& before,
+                                                   const ReportTime& now) {
+  if (before.connection != now.connection || now.at <= before.at) return std::nullopt;
+  return now.at - before.at;
+}
 
 // The monitor's knowledge of one arm in a period.
 struct ArmObservation {
@@ -25,7 +41,8 @@ struct ArmObservation {
   std::optional<Duration> rests_at = {};        // while it brakes: the progress where it will rest
   // Distance from the path at the start of the motion (rad, m), for which it was certified.
   double off_path = 0.0;
-  Duration feedback_age{};  // since the last new report
+  ReportTime reported{};    // of the last report
+  Duration feedback_age{};  // of the last report
 };
 
 struct Observation {

@@ -46,16 +46,13 @@ PremiseCheck::PremiseCheck(CellPtr cell)
 
 std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
   std::vector<MonitorFinding> found;
-  if (time_ && seen.time > *time_) {
-    velocity_ = (seen.measured - measured_) / to_seconds(seen.time - *time_);
-  }
   for (std::uint32_t a = 0; a < arms_.size(); ++a) {
     const ArmId arm{a};
     ArmState& state = arms_[a];
     state.as_certified = state.keeps_authority = true;
     state.deviation = 0.0;
     if (!seen.arms[a].is_connected) {
-      state.rested = state.connected = false;
+      state.rested = false;
       continue;
     }
     check_feedback(arm, seen, found);
@@ -70,7 +67,6 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
                                tracking_error(*cell_, arm);
                       });
     state.last = seen.arms[a];
-    state.connected = true;
   }
   measured_ = seen.measured;
   time_ = seen.time;
@@ -109,33 +105,9 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
          .limit = to_seconds(timeout)},
         found);
 
-  // Positions that change faster than the joints can move.
-  const TimePoint fresh_at = seen.time - now.feedback_age;
-  if (time_ && state.connected && fresh_at > state.fresh_at) {
-    const double elapsed_s = to_seconds(fresh_at - state.fresh_at);
-    // Measured with an error twice; an arm that starts off its path approaches it.
-    const double slack = 3.0 * tracking_error(*cell_, arm) + now.off_path +
-                         std::max(state.deviation, state.last.off_path);
-    Farthest far;
-    double limit = 0.0, excess = 0.0;
-    for (const JointId joint : state.joints) {
-      const double most = velocity_limit(*cell_, joint) * elapsed_s + slack;
-      const double by = std::abs(seen.measured[joint.value()] - measured_[joint.value()]);
-      if (by - most <= excess) continue;
-      excess = by - most;
-      far = {by, joint};
-      limit = most;
-    }
-    judge(arm, far.joint.has_value(), now.rests,
-          {.kind = Kind::implausible_feedback,
-           .time = seen.time,
-           .joint = far.joint,
-           .value = far.distance,
-           .limit = limit},
-          found);
-  }
-  state.fresh_at = std::max(state.fresh_at, fresh_at);
-  if (now.motion) state.earliest_rest.observe(now, fresh_at);
+  const auto elapsed = since(state.last.reported, now.reported);
+  if (time_ && elapsed) check_change(arm, seen, *elapsed, found);
+  if (now.motion) state.earliest_rest.observe(now);
 
   // Positions that stay while the commanded progress goes on.
   const bool changed = !time_ || std::ranges::any_of(state.joints, [&](JointId joint) {
@@ -157,6 +129,36 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
          .time = seen.time,
          .value = to_seconds(seen.time - state.changed_at),
          .limit = to_seconds(timeout)},
+        found);
+}
+
+// Finds positions that changed faster than the joints can move. `elapsed`: between the reports.
+void PremiseCheck::check_change(ArmId arm, const Observation& seen, Duration elapsed,
+                                std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
+  const ArmObservation& now = seen.arms[arm.index()];
+  const double elapsed_s = to_seconds(elapsed);
+  // Measured with an error twice; an arm that starts off its path approaches it.
+  const double slack = 3.0 * tracking_error(*cell_, arm) + now.off_path +
+                       std::max(state.deviation, state.last.off_path);
+  Farthest far;
+  double limit = 0.0, excess = 0.0;
+  for (const JointId joint : state.joints) {
+    const double change = seen.measured[joint.value()] - measured_[joint.value()];
+    velocity_[joint.value()] = change / elapsed_s;
+    const double most = velocity_limit(*cell_, joint) * elapsed_s + slack;
+    const double by = std::abs(change);
+    if (by - most <= excess) continue;
+    excess = by - most;
+    far = {by, joint};
+    limit = most;
+  }
+  judge(arm, far.joint.has_value(), now.rests,
+        {.kind = Kind::implausible_feedback,
+         .time = seen.time,
+         .joint = far.joint,
+         .value = far.distance,
+         .limit = limit},
         found);
 }
 

@@ -44,7 +44,8 @@ class PremiseCheck {
   // Returns true if the arm moved away from its rest and stands still again. An arm whose
   // measurements are noisy beyond its tracking error does not stand still.
   [[nodiscard]] bool rests_elsewhere(ArmId arm) const { return arms_[arm.index()].elsewhere; }
-  // Returns the measured velocities of all joints (rad/s, m/s) in the last period.
+  // Returns the velocities of all joints (rad/s, m/s), measured between the last two reports of
+  // their arms.
   [[nodiscard]] const Configuration& velocity() const { return velocity_; }
 
   // Returns the point of the arm's motion that is nearest to the measured positions, between the
@@ -69,9 +70,7 @@ class PremiseCheck {
     std::vector<JointId> joints = {};  // of the arm and its gripper
     Configuration rest = {};           // by JointId, where each joint rests
     bool rested = false;               // in the last check
-    bool connected = false;            // likewise
     ArmObservation last = {};
-    TimePoint fresh_at{};       // time of the last new feedback
     TimePoint changed_at{};     // when the positions last changed
     Duration commanded_then{};  // commanded progress then
     TimePoint still_since{};    // unplanned_motion: start of the present window
@@ -82,6 +81,8 @@ class PremiseCheck {
     std::array<Violation, kValueCount<Kind>> violations = {};
   };
   void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void check_change(ArmId arm, const Observation& seen, Duration elapsed,
+                    std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);

@@ -79,6 +79,7 @@ struct Ahead {
   }
   std::vector<MonitorFinding> look() {
     seen.time += kPeriod;
+    for (ArmObservation& arm : seen.arms) arm.reported = {1, arm.reported.at + reported_after};
     std::vector<bool> stopping(seen.arms.size(), false);
     for (const MonitorFinding& found : premises.check(seen)) {
       for (const ArmId arm : found.stops) stopping[arm.index()] = true;
@@ -93,6 +94,7 @@ struct Ahead {
   PremiseCheck premises{cell};
   LookAhead ahead{cell, kPeriod};
   Observation seen;
+  Duration reported_after = kPeriod;  // from report to report, on the controllers' clocks
   Certificates certificates;
   Line line;
   std::vector<TrajectoryPtr> curves;
@@ -178,6 +180,37 @@ TEST(LookAhead, NeverLooksBeyondTheAuthority) {
   EXPECT_THAT(a.look(), IsEmpty());
   a.seen.arms[0].authority = 525ms;
   EXPECT_THAT(a.look(), SizeIs(1));
+}
+
+// A monitor period in which 4 ms of the motion were reported, and one without a report.
+TEST(LookAhead, TakesTheRateFromTheTimesOfTheReports) {
+  Ahead a(1);
+  a.on_path(0, 500ms);
+  a.look();
+  a.on_path(0, 510ms);
+  a.look();
+  const auto ahead = [&] { return a.goes_to(ArmId{0}) - a.seen.arms[0].commanded; };
+  const Duration as_planned = ahead();
+  a.reported_after = 4ms;
+  a.on_path(0, 514ms);
+  a.look();
+  EXPECT_EQ(ahead(), as_planned);
+  a.reported_after = 0ms;
+  a.look();
+  EXPECT_EQ(ahead(), as_planned);
+}
+
+TEST(LookAhead, AssumesAnyRateIfAReportIsOverdue) {
+  Ahead a(1);
+  a.on_path(0, 500ms);
+  a.look();
+  a.on_path(0, 505ms);
+  a.look();
+  const Duration at_half_the_rate = a.goes_to(ArmId{0});
+  a.reported_after = 0ms;
+  a.seen.arms[0].feedback_age = 10ms;
+  a.look();
+  EXPECT_GT(a.goes_to(ArmId{0}), at_half_the_rate);
 }
 
 TEST(LookAhead, StopsAnArmThatApproachesTheScene) {

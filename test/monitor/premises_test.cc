@@ -35,9 +35,10 @@ struct Watched {
     curve->sample_positions(progress, path);
     seen.measured = path;
   }
-  // Looks 10 ms later.
+  // Looks 10 ms later. The controller's clock is another one.
   std::vector<MonitorFinding> look() {
     seen.time += 10ms;
+    arm().reported = {1, seen.time.time_since_epoch() + slipped - arm().feedback_age};
     return premises.check(seen);
   }
   // Follows the path from `from` to `to` in real time; returns all findings.
@@ -50,6 +51,7 @@ struct Watched {
     return all;
   }
   Eigen::VectorXd path;
+  Duration slipped{};  // cell time that the server lost
 };
 
 TEST(Premises, AcceptAnArmOnItsPath) {
@@ -247,6 +249,20 @@ TEST(Premises, TakeTheRateFromTheTimesOfTheReports) {
   EXPECT_THAT(w.look(), IsEmpty());
 }
 
+// The arm brakes as hard as it may in 50 ms of real time, which the server takes for 10 ms.
+TEST(Premises, TakeTheRateFromTheClockOfTheController) {
+  Watched w;
+  w.start();
+  w.arm().authority = 500ms;
+  ASSERT_THAT(w.follow(10ms, 450ms), IsEmpty());
+  w.slipped = 40ms;
+  w.on_path(487500us);
+  EXPECT_THAT(w.look(), IsEmpty());
+  w.slipped = 90ms;
+  w.on_path(500ms);
+  EXPECT_THAT(w.look(), IsEmpty());
+}
+
 TEST(Premises, ReportAnArmThatIgnoresItsStop) {
   Watched w;
   w.start();
@@ -303,6 +319,39 @@ TEST(Premises, ReportPositionsThatChangeTooFast) {
   EXPECT_EQ(found[0].kind, Kind::implausible_feedback);
   EXPECT_NEAR(found[0].value, 0.05, 1e-9);
   EXPECT_LT(found[0].limit, 0.03);
+}
+
+TEST(Premises, AcceptReportsThatABusyServerTakesAtOnce) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
+  w.slipped = 40ms;
+  w.on_path(550ms);
+  EXPECT_THAT(w.look(), IsEmpty()) << "50 ms by the controller's clock";
+  EXPECT_NEAR(w.premises.velocity()[0], 1.0, 1e-9);
+  w.on_path(600ms);
+  EXPECT_THAT(w.look(), SizeIs(1));
+}
+
+TEST(Premises, KeepTheVelocityUntilTheNextReport) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
+  w.arm().feedback_age = 10ms;
+  ASSERT_THAT(w.look(), IsEmpty());
+  EXPECT_NEAR(w.premises.velocity()[0], 1.0, 1e-9);
+}
+
+// A controller that was restarted begins its clock again.
+TEST(Premises, DoNotCompareReportsOfTwoConnections) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
+  w.seen.time += 10ms;
+  w.on_path(560ms);
+  w.arm().reported.connection = 2;
+  w.arm().reported.at += 1ms;
+  EXPECT_THAT(w.premises.check(w.seen), IsEmpty());
 }
 
 TEST(Premises, ReportFrozenPositions) {

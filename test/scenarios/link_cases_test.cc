@@ -194,5 +194,42 @@ TEST(FirstConnection, JobsWaitForItAndThenRunFromWhereTheArmIs) {
   EXPECT_EQ(s.cell.job("from there").state, JobState::succeeded);
 }
 
+// An arm that moves in real time, beside a server whose cell time slips.
+class RealTimeArm final : public ArmController {
+ public:
+  RealTimeArm(const CellPtr& cell, ArmId arm, const Eigen::VectorXd& q) : inner_(cell, arm, q, 1) {}
+  [[nodiscard]] const std::vector<JointId>& joints() const override { return inner_.joints(); }
+  void send(const ArmCommand& command) override { inner_.send(command); }
+  [[nodiscard]] const ArmFeedback* poll(TimePoint now) override {
+    return inner_.poll(now + slipped);
+  }
+  Duration slipped{};  // cell time that the server lost so far
+
+ private:
+  SimulatedArm inner_;
+};
+
+TEST(BusyServer, StopsNoArmWhoseReportsItTakesAtOnce) {
+  std::vector<RealTimeArm*> arms;
+  const auto make = [&arms](const CellPtr& cell, ArmId arm, const Eigen::VectorXd& q,
+                            std::uint64_t) -> Result<MadeController> {
+    auto made = std::make_unique<RealTimeArm>(cell, arm, q);
+    arms.push_back(made.get());
+    return MadeController{std::move(made)};
+  };
+  Crossing cell(crossing_description(), "certified", {{"sim", make}});
+  cell.submit(slide("x", -1, 1, 4, "runs"));
+  for (const TimePoint time : {at(1s), at(1500ms), at(2s)}) {
+    cell.run_until(time);
+    arms[0]->slipped += 60ms;
+  }
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("runs").state, JobState::succeeded);
+  for (const Event& event : cell.log.events) {
+    const auto* monitor = std::get_if<MonitorEvent>(&event.body);
+    if (monitor != nullptr) ADD_FAILURE() << monitor->text;
+  }
+}
+
 }  // namespace
 }  // namespace armloom
