@@ -1,6 +1,6 @@
 """Builds a copy of the sources with all faults in it; ARMLOOM_FAULT=N switches fault N on. Used by guard/faults.py and
 server/faults.py. A fault is (name, file, old text, new text); FAULT in the new text is true while the fault is on."""
-import os, re, signal, subprocess
+import os, re, shutil, signal, subprocess
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
@@ -15,28 +15,36 @@ inline bool armloom_fault(int number) {
 '''
 
 
-def copy(tree):
-    tree.mkdir(parents=True, exist_ok=True)
-    files = subprocess.run(['git', '-C', TOP, 'ls-files', '-co', '--exclude-standard', '-z'], capture_output=True, check=True).stdout
-    subprocess.run(f'tar -C {TOP} --null -T - -cf - | tar -C {tree} -xf -', shell=True, input=files, check=True)
-
-
-def put_in(tree, faults):
-    """Returns the faults whose old text does not occur exactly once in their file."""
-    missing = []
+def put_in(faults):
+    """Returns the changed sources by file, and the faults whose old text does not occur exactly once in their file."""
+    texts, missing = {}, []
     for number, (name, file, old, new) in enumerate(faults, 1):
         on = f'(globalThis.process?.env?.ARMLOOM_FAULT === "{number}")' if file.startswith('web/') else f'armloom_fault({number})'
-        path = tree / file
-        text = path.read_text() if path.exists() else ''
+        path = TOP / file
+        text = texts.get(file) or (path.read_text() if path.exists() else '')
         if text.count(old) != 1:
             missing.append(f'{name}: found {text.count(old)} times in {file}')
             continue
-        path.write_text(text.replace(old, new.replace('FAULT', on)))
-    return missing
+        texts[file] = text.replace(old, new.replace('FAULT', on))
+    return texts, missing
+
+
+def copy(tree, texts):
+    """Copies the sources, with the given texts, to `tree`. Leaves files that are the same, so that they are not built again."""
+    files = subprocess.run(['git', '-C', TOP, 'ls-files', '-co', '--exclude-standard', '-z'], capture_output=True, check=True).stdout
+    for file in filter(None, files.decode().split('\0')):
+        if not (TOP / file).exists(): continue
+        data = texts[file].encode() if file in texts else (TOP / file).read_bytes()
+        to = tree / file
+        if to.exists() and to.read_bytes() == data: continue
+        to.parent.mkdir(parents=True, exist_ok=True)
+        to.write_bytes(data)
+        shutil.copymode(TOP / file, to)
+    switch = tree / 'core/base/fault_switch.h'
+    if not switch.exists() or switch.read_text() != SWITCH: switch.write_text(SWITCH)
 
 
 def build(tree, *targets):
-    (tree / 'core/base/fault_switch.h').write_text(SWITCH)
     flags = f'-w -include {tree}/core/base/fault_switch.h'  # -w: a fault may make code look odd
     subprocess.run(['cmake', '-S', tree, '-B', tree / 'build', '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON',
                     f'-DCMAKE_CXX_FLAGS={flags}'], check=True, stdout=subprocess.DEVNULL)

@@ -53,6 +53,7 @@ class Link : public ::testing::Test {
     feedback.phase = phase;
     feedback.measured = Eigen::VectorXd::Zero(2);
     feedback.commanded_progress = feedback.measured_progress = progress;
+    feedback.settled = settled;
     controller.reports.push_back(feedback);
     pass();
   }
@@ -74,6 +75,7 @@ class Link : public ::testing::Test {
   TimePoint now{};
   std::uint64_t sequence = 0;
   CommandNumber acknowledged = 0;
+  bool settled = false;
 };
 
 TEST_F(Link, ConnectsWithTheFirstReport) {
@@ -115,6 +117,16 @@ TEST_F(Link, IsLostAtOnceWhenTheConnectionBreaks) {
   EXPECT_EQ(link.detail(), "no answer from tcp:10.0.0.7:4000");
 }
 
+TEST_F(Link, IsLostUntilTheFirstReportOfANewConnection) {
+  come_up();
+  controller.connected.number = 2;
+  pass();
+  EXPECT_EQ(link.state(), State::lost);
+  sequence = 0;
+  report();
+  EXPECT_EQ(link.state(), State::up);
+}
+
 TEST_F(Link, IgnoresOldAndMalformedReports) {
   come_up();
   report(Phase::moving, 20ms);
@@ -146,6 +158,29 @@ TEST_F(Link, TreatsAMotionAsWaitingUntilItIsAcknowledged) {
   acknowledged = 1;
   report(Phase::moving, 10ms);
   EXPECT_EQ(link.feedback().phase, Phase::moving);
+}
+
+TEST_F(Link, IgnoresReportsOnCommandsThatWereNeverSent) {
+  come_up();
+  follow();
+  acknowledged = 2;
+  report(Phase::moving, 10ms);
+  EXPECT_EQ(link.ignored(), 1u);
+  EXPECT_EQ(link.feedback().phase, Phase::waiting);
+}
+
+TEST_F(Link, IsNotSettledWhileACommandIsUnderWay) {
+  settled = true;
+  come_up();
+  EXPECT_TRUE(link.feedback().settled);
+  link.command(ArmCommand::SetSpeed{0.5});
+  link.flush(controller);
+  EXPECT_FALSE(link.feedback().settled);
+  report();
+  EXPECT_FALSE(link.feedback().settled);
+  acknowledged = 1;
+  report();
+  EXPECT_TRUE(link.feedback().settled);
 }
 
 TEST_F(Link, ReportsARejectedMotionAsAFault) {
@@ -257,6 +292,15 @@ TEST_F(Link, ReportsAFaultIfTheControllerWasRestarted) {
   link.flush(controller);
   EXPECT_EQ(link.feedback().phase, Phase::idle);
   EXPECT_EQ(controller.sent.back().number, 1u) << "continues the controller's numbers";
+}
+
+TEST_F(Link, ReportsAFaultIfTheControllerForgetsAMotionThatItAccepted) {
+  come_up();
+  follow();
+  acknowledged = 1;
+  report(Phase::moving, 5ms);
+  report(Phase::idle);
+  EXPECT_EQ(link.feedback().phase, Phase::fault);
 }
 
 TEST_F(Link, CommandsTheSpeedOverrideAgainOnEachNewConnectionBeforeAnyMotion) {

@@ -32,12 +32,21 @@ TEST(Promises, SlowControllersGetLongerTimes) {
 }
 
 TEST(Promises, OfSeveralArmsAreThoseOfTheSlowestInEachTime) {
-  Cell cell = *build_or_fail(two_pandas_description());
-  cell.robots[0].controller.reaction = 300ms;
-  cell.robots[1].controller.feedback_period = 40ms;
-  const ArmId both[] = {ArmId{0}, ArmId{1}};
-  EXPECT_EQ(promises_of(cell, both).response(), 341ms);
-  EXPECT_EQ(promises_of(cell, {&both[0], 1}).response(), 302ms);
+  const ControllerDescription usual;
+  for (const std::size_t slow : {0, 1}) {
+    Cell cell = *build_or_fail(two_pandas_description());
+    cell.robots[slow].controller.reaction = 300ms;
+    cell.robots[1 - slow].controller.feedback_period = 40ms;
+    cell.robots[slow].controller.feedback_timeout = 2s;
+    const ArmId arms[] = {ArmId{0}, ArmId{1}};
+    const Promises both = promises_of(cell, arms);
+    EXPECT_EQ(both.reaction, 300ms);
+    EXPECT_EQ(both.feedback_period, 40ms);
+    EXPECT_EQ(both.feedback_timeout, 2s);
+    const Promises quick = promises_of(cell, {&arms[1 - slow], 1});
+    EXPECT_EQ(quick.reaction, usual.reaction);
+    EXPECT_EQ(quick.feedback_timeout, usual.feedback_timeout);
+  }
 }
 
 TEST(Promises, TrackingErrorOfARobotReplacesThatOfTheCell) {

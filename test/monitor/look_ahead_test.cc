@@ -261,6 +261,62 @@ TEST(LookAhead, ExtrapolatesAnArmThatLeftItsPath) {
   EXPECT_EQ(reach.error[1], 0.0);
 }
 
+// The arm cannot come to rest at its authority any more.
+TEST(LookAhead, LooksBeyondAnAuthorityThatIsNotKept) {
+  Ahead a(2);
+  a.line.bases = {0.0, 0.55};
+  for (const Duration progress : {500ms, 510ms}) {
+    EXPECT_THAT(a.look(), IsEmpty());
+    a.on_path(0, progress);
+    a.seen.arms[0].authority = 515ms;
+  }
+  EXPECT_THAT(a.look(), SizeIs(1));
+}
+
+TEST(LookAhead, AssumesAnArmWithoutReportsAtItsAuthority) {
+  Ahead a(2);
+  a.line.bases = {0.0, 1.0};
+  a.on_path(0, 500ms);
+  EXPECT_THAT(a.look(), IsEmpty());
+  a.seen.arms[0].feedback_age = kTimeout + 1ms;
+  a.seen.arms[0].authority = 980ms;
+  EXPECT_THAT(a.look(), IsEmpty());
+  a.seen.arms[0].authority = 1s;
+  EXPECT_THAT(a.look(), SizeIs(1));
+}
+
+TEST(LookAhead, CountsAnArmThatIsStoppedInThisPeriodAsBraking) {
+  Ahead a(2);
+  a.line.signs = {1.0, -1.0};
+  a.on_path(0, 500ms);
+  a.on_path(1, 500ms);
+  const Duration going = a.goes_to(ArmId{0});
+  a.line.bases = {0.0, 2 * to_seconds(going) + 0.01 - 0.005};
+  const auto look = [&](bool is_stopping) {
+    return a.ahead.check(a.seen, a.premises, {is_stopping, false}, a.certificates, a.line);
+  };
+  EXPECT_THAT(look(true), IsEmpty());
+  EXPECT_THAT(look(false), SizeIs(1));
+}
+
+TEST(LookAhead, ExpectsAnArmToFallBehindByItsLag) {
+  auto cell = std::make_shared<Cell>(*two_joint_arms(1));
+  cell->robots[0].controller.lag = 50ms;
+  Ahead a(1);
+  a.premises = PremiseCheck(cell);
+  a.ahead = LookAhead(cell, kPeriod);
+  Duration commanded = 400ms;
+  const auto late_with = [&](Duration behind) {
+    a.on_path(0, (commanded += kPeriod) - behind);
+    a.seen.arms[0].commanded = commanded;
+    EXPECT_THAT(a.look(), IsEmpty());
+    return to_seconds(a.ahead.reach_of(ArmId{0}, a.seen, a.premises, false).going.late);
+  };
+  EXPECT_EQ(late_with(10ms), 0.0) << "its rate is not known yet";
+  EXPECT_NEAR(late_with(15ms), 0.035, 1e-6);
+  EXPECT_NEAR(late_with(20ms), 0.03, 1e-6);
+}
+
 TEST(LookAhead, KeepsAnArmInReachThatMovesWithoutAMotion) {
   Ahead a(2);
   a.line.bases = {0.0, 0.05};
@@ -272,6 +328,16 @@ TEST(LookAhead, KeepsAnArmInReachThatMovesWithoutAMotion) {
   EXPECT_THAT(found[0].stops, IsEmpty()) << "both rest: no stop helps";
   EXPECT_NEAR(reach().shift[0] + reach().error[0], 0.07, 1e-9);
   EXPECT_NEAR(reach().shift[0] - reach().error[0], 0.0, 1e-9);
+}
+
+TEST(LookAhead, AssumesNoSpeedBeyondTheLimitOfAJoint) {
+  Ahead a(1);
+  ASSERT_THAT(a.look(), IsEmpty());
+  a.seen.measured[0] += 0.5;  // 50 rad/s
+  ASSERT_THAT(a.look(), IsEmpty());
+  const double speed = 1.05 * kVelocityMax;  // checking.limit_tolerance
+  const Reach reach = a.ahead.reach_of(ArmId{0}, a.seen, a.premises, true).going;
+  EXPECT_NEAR(2.0 * reach.error[0], speed * 0.02 + speed * speed / (2.0 * kBrake), 1e-9);
 }
 
 }  // namespace

@@ -1,9 +1,4 @@
-#include "core/monitor/premises.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "test/monitor/two_joint_arms.h"
+#include "test/monitor/watched_arm.h"
 
 namespace armloom {
 namespace {
@@ -12,47 +7,6 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 using Kind = MonitorFinding::Kind;
-
-const ArmId kArm{0};
-
-// One arm that the test moves and measures.
-struct Watched {
-  CellPtr cell = two_joint_arms(1);
-  PremiseCheck premises{cell};
-  TrajectoryPtr curve = curve_of(kArm);
-  Observation seen{.time = {}, .measured = Configuration::Zero(2), .arms = {ArmObservation{}}};
-
-  ArmObservation& arm() { return seen.arms[0]; }
-  // Starts the motion at zero.
-  void start() {
-    arm() = {.motion = curve, .authority = 2s, .rests = false};
-    EXPECT_THAT(look(), IsEmpty());
-  }
-  // The arm is measured on its path at `progress`, and commanded `lag` farther.
-  void on_path(Duration progress, Duration lag = 0ms) {
-    arm().measured = progress;
-    arm().commanded = progress + lag;
-    curve->sample_positions(progress, path);
-    seen.measured = path;
-  }
-  // Looks 10 ms later. The controller's clock is another one.
-  std::vector<MonitorFinding> look() {
-    seen.time += 10ms;
-    arm().reported = {1, seen.time.time_since_epoch() + slipped - arm().feedback_age};
-    return premises.check(seen);
-  }
-  // Follows the path from `from` to `to` in real time; returns all findings.
-  std::vector<MonitorFinding> follow(Duration from, Duration to) {
-    std::vector<MonitorFinding> all;
-    for (Duration at = from; at <= to; at += 10ms) {
-      on_path(at);
-      for (const MonitorFinding& found : look()) all.push_back(found);
-    }
-    return all;
-  }
-  Eigen::VectorXd path;
-  Duration slipped{};  // cell time that the server lost
-};
 
 TEST(Premises, AcceptAnArmOnItsPath) {
   Watched w;
@@ -281,103 +235,6 @@ TEST(Premises, ReportAnArmThatIgnoresItsStop) {
   EXPECT_GT(found[0].limit, 0.4) << "it has time to brake and to settle";
 }
 
-TEST(Premises, ReportLateFeedbackOnce) {
-  Watched w;
-  w.start();
-  w.arm().feedback_age = kTimeout;
-  EXPECT_THAT(w.look(), IsEmpty());
-  w.arm().feedback_age = kTimeout + 1ms;
-  const auto found = w.look();
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_EQ(found[0].kind, Kind::late_feedback);
-  EXPECT_EQ(found[0].value, 0.101);
-  EXPECT_EQ(found[0].limit, 0.1);
-  w.arm().feedback_age += 10ms;
-  EXPECT_THAT(w.look(), IsEmpty());
-}
-
-TEST(Premises, AcceptTheJumpAfterMissingFeedback) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  for (int i = 1; i <= 9; ++i) {  // no report for 90 ms
-    w.arm().feedback_age = i * 10ms;
-    ASSERT_THAT(w.look(), IsEmpty());
-  }
-  w.arm().feedback_age = 0ms;
-  w.on_path(600ms);
-  EXPECT_THAT(w.look(), IsEmpty());
-}
-
-TEST(Premises, ReportPositionsThatChangeTooFast) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  w.on_path(550ms);  // 0.05 rad in 10 ms
-  const auto found = w.look();
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_EQ(found[0].kind, Kind::implausible_feedback);
-  EXPECT_NEAR(found[0].value, 0.05, 1e-9);
-  EXPECT_LT(found[0].limit, 0.03);
-}
-
-TEST(Premises, AcceptReportsThatABusyServerTakesAtOnce) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  w.slipped = 40ms;
-  w.on_path(550ms);
-  EXPECT_THAT(w.look(), IsEmpty()) << "50 ms by the controller's clock";
-  EXPECT_NEAR(w.premises.velocity()[0], 1.0, 1e-9);
-  w.on_path(600ms);
-  EXPECT_THAT(w.look(), SizeIs(1));
-}
-
-TEST(Premises, KeepTheVelocityUntilTheNextReport) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  w.arm().feedback_age = 10ms;
-  ASSERT_THAT(w.look(), IsEmpty());
-  EXPECT_NEAR(w.premises.velocity()[0], 1.0, 1e-9);
-}
-
-// A controller that was restarted begins its clock again.
-TEST(Premises, DoNotCompareReportsOfTwoConnections) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  w.seen.time += 10ms;
-  w.on_path(560ms);
-  w.arm().reported.connection = 2;
-  w.arm().reported.at += 1ms;
-  EXPECT_THAT(w.premises.check(w.seen), IsEmpty());
-}
-
-TEST(Premises, ReportFrozenPositions) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  std::vector<MonitorFinding> all;
-  for (int i = 1; i <= 20; ++i) {
-    w.arm().commanded += 10ms;
-    for (const auto& found : w.look()) all.push_back(found);
-    if (i == 10) {
-      ASSERT_THAT(all, IsEmpty());
-    }
-  }
-  ASSERT_THAT(all, SizeIs(1));
-  EXPECT_EQ(all[0].kind, Kind::frozen_feedback);
-  EXPECT_NEAR(all[0].value, 0.11, 1e-9);
-}
-
-TEST(Premises, AcceptAnArmThatWaitsOnItsPath) {
-  Watched w;
-  w.start();
-  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
-  for (int i = 0; i < 100; ++i) EXPECT_THAT(w.look(), IsEmpty());
-}
-
 TEST(Premises, ReportAMotionThatFinishedAwayFromItsGoal) {
   Watched w;
   w.start();
@@ -389,23 +246,6 @@ TEST(Premises, ReportAMotionThatFinishedAwayFromItsGoal) {
   EXPECT_EQ(found->kind, Kind::early_finish);
   EXPECT_EQ(found->joint, JointId{0});
   EXPECT_NEAR(found->value, 0.1, 1e-9);
-}
-
-TEST(DistanceFromPath, FindsTheNearestCommonPoint) {
-  const TrajectoryPtr curve = curve_of(kArm);
-  const std::vector<JointId> joints{JointId{0}, JointId{1}};
-  for (const Duration at : std::vector<Duration>{3ms, 117ms, 1234567us, 1999ms}) {
-    Eigen::VectorXd q;
-    curve->sample_positions(at, q);
-    const PathDistance far = distance_from_path(*curve, joints, 0ms, 2s, q, 0.0);
-    EXPECT_LT(far.distance, 1e-4) << to_seconds(at);
-    EXPECT_NEAR(to_seconds(far.progress), to_seconds(at), 1e-4);
-  }
-  Eigen::VectorXd q;
-  curve->sample_positions(1s, q);
-  q[0] += 0.01;
-  q[1] -= 0.01;  // the velocity there is (1, 0): the distance is at least that of the second joint
-  EXPECT_NEAR(distance_from_path(*curve, joints, 0ms, 2s, q, 0.0).distance, 0.01, 3e-4);
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ TEST(Admission,
   EXPECT_EQ(bench.job(second).waits_on.front().job, first);
 }
 
+TEST(Admission, ChecksAStartOffThePathWithTheErrorsOfBothMeasurements) {
+  const double error = one_joint_arms(1)->checking.tracking_error_rad;
+  const auto asked = [](double off) {
+    Bench bench(1);
+    bench.submit(move({0}, off, 1, 2s), at(0ms));
+    return bench.question->candidates.front().off_path;
+  };
+  EXPECT_EQ(asked(error), 0.0) << "the tracking error allows for it";
+  EXPECT_NEAR(asked(3.0 * error), 5.0 * error, 1e-12);
+}
+
 TEST(Admission, ChecksAgainstMotionsFromTheirMeasuredProgress) {  // T2
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
