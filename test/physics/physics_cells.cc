@@ -1,7 +1,6 @@
 #include "test/physics/physics_cells.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -17,16 +16,18 @@ std::filesystem::path config_folder() { return std::filesystem::path(source_dir(
 
 }  // namespace
 
-CellPtr config_cell(const std::string& name) {
-  std::ifstream in(config_folder() / (name + ".json"));
+CellPtr cell_in(const std::filesystem::path& file) {
+  std::ifstream in(file);
   std::stringstream text;
   text << in.rdbuf();
-  const auto description = read_cell_text(text.str(), config_folder());
+  const auto description = read_cell_text(text.str(), file.parent_path());
   if (!description) throw std::runtime_error(description.error().front().detail);
   const auto cell = build_cell(*description);
   if (!cell) throw std::runtime_error(cell.error().front().detail);
   return *cell;
 }
+
+CellPtr config_cell(const std::string& name) { return cell_in(config_folder() / (name + ".json")); }
 
 std::vector<std::string> config_cell_names() {
   std::vector<std::string> names;

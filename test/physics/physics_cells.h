@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -7,6 +8,9 @@
 #include "core/model/cell.h"
 
 namespace armloom::test {
+
+// Reads a cell file. Throws std::runtime_error if the file has a fault.
+[[nodiscard]] CellPtr cell_in(const std::filesystem::path& file);
 
 // Returns a cell of config/, by its file name without ".json".
 [[nodiscard]] CellPtr config_cell(const std::string& name);
