@@ -119,6 +119,9 @@ struct ArmConnection {
   std::string detail = {};  // why it is not: "no answer from tcp:10.0.0.7:4000"
   // Counts the connections. If it grows, commands that were not acknowledged are lost.
   std::uint64_t number = 1;
+  bool is_in_use = false;  // it is down, because the controller serves another server
+
+  bool operator==(const ArmConnection&) const = default;
 };
 
 // The controller of one arm: its arm joints, then its gripper joints. A separate party: commands

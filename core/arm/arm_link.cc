@@ -93,7 +93,12 @@ void ArmLink::flush(ArmController& controller) {
 
 void ArmLink::send(ArmController& controller, What what) {
   const ArmCommand command{++number_, std::move(what)};
-  if (std::holds_alternative<ArmCommand::Follow>(command.what)) motion_->number = number_;
+  if (std::holds_alternative<ArmCommand::Brake>(command.what) && brake_ == 0) brake_ = number_;
+  if (std::holds_alternative<ArmCommand::Follow>(command.what)) {
+    motion_->number = number_;
+    brake_ = 0;
+    braking_since_.reset();
+  }
   if (std::holds_alternative<ArmCommand::Release>(command.what)) released_ = number_;
   sent_.push_back(command);
   sent_at_ = now_;
@@ -133,7 +138,8 @@ void ArmLink::connected_anew() {
 void ArmLink::synchronize(const ArmFeedback& first) {
   is_new_ = false;
   number_ = first.acknowledged;
-  released_ = 0;
+  released_ = brake_ = 0;
+  braking_since_.reset();
   fastest_.reset();
   if (speed_) command(ArmCommand::SetSpeed{*speed_});  // the controller may have been restarted
   if (!motion_ || motion_->number <= number_) return;
@@ -161,24 +167,29 @@ void ArmLink::hear(const ArmFeedback& report, TimePoint now) {
   heard_over_ = connection_;
   measured_at_ = TimePoint(report.controller_time + *fastest_);
   has_news_ = true;
+  if (brake_ != 0 && report.acknowledged >= brake_ && !braking_since_) {
+    braking_since_ = measured_at_;
+  }
   std::erase_if(sent_,
                 [&](const ArmCommand& command) { return command.number <= report.acknowledged; });
 }
 
 void ArmLink::see(const ArmConnection& connection, TimePoint now) {
   if (state_ != State::connecting || has_news_) age_ = now - measured_at_;
+  was_in_use_ = was_in_use_ || (state_ == State::connecting && connection.is_in_use);
   if (!connection.is_up) {
     if (state_ != State::connecting) state_ = State::lost;
     detail_ = connection.detail;
   } else if (state_ == State::connecting && !has_news_) {
     return;
   } else if (state_ == State::lost && !has_news_) {
-    detail_ = "no report since the connection was lost";
+    detail_ = "no report since the link was lost";
   } else if (age_ > feedback_timeout_) {
     state_ = State::lost;
-    detail_ = "the last report is " +
-              std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(age_).count()) +
-              " ms old";
+    const auto ms = [](Duration time) {
+      return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(time).count());
+    };
+    detail_ = "no report for " + ms(age_) + " ms (limit " + ms(feedback_timeout_) + " ms)";
   } else if (age_ > feedback_timeout_ / 2) {
     state_ = State::stale;
     detail_ = "reports are late";

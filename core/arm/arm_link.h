@@ -47,10 +47,15 @@ class ArmLink {
   [[nodiscard]] State state() const { return state_; }
   // Why the link is not up; empty if it is.
   [[nodiscard]] const std::string& detail() const { return detail_; }
+  // Returns true if the controller was seen to serve another server before it connected.
+  [[nodiscard]] bool was_in_use() const { return was_in_use_; }
   // Age of the last report at the last exchange(); Duration::max() before the first.
   [[nodiscard]] Duration age() const { return age_; }
   // The connection over which the last report came (ArmConnection::number); 0 before the first.
   [[nodiscard]] std::uint64_t connection() const { return heard_over_; }
+  // Returns when the controller reported that it obeys the last brake; nullopt if it has not, or if
+  // a motion was commanded since. A new connection forgets the brake.
+  [[nodiscard]] std::optional<TimePoint> braking_since() const { return braking_since_; }
   // Returns the last report, seen through the commands since: a motion that the controller has not
   // acknowledged is `waiting`, a motion that it has lost or rejected is a `fault`.
   [[nodiscard]] const ArmFeedback& feedback() const { return seen_; }
@@ -69,8 +74,9 @@ class ArmLink {
 
   Duration feedback_timeout_;
   State state_ = State::connecting;
-  std::string detail_ = "waiting for the controller's first report";
+  std::string detail_ = "no report yet";
   std::uint64_t connection_ = 0;
+  bool was_in_use_ = false;
   bool is_new_ = true;  // no report of this connection has arrived yet
 
   std::optional<double> speed_;  // the last SetSpeed: repeated on each new connection
@@ -91,6 +97,8 @@ class ArmLink {
   };
   std::optional<Motion> motion_;
   CommandNumber released_ = 0;  // number of the last release
+  CommandNumber brake_ = 0;     // number of the last brake; 0 if a motion was commanded since
+  std::optional<TimePoint> braking_since_;
 
   ArmFeedback heard_;  // the last report
   std::uint64_t heard_over_ = 0;

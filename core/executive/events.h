@@ -157,6 +157,7 @@ struct ArmView {
   ArmLink::State link = ArmLink::State::connecting;  // to its controller
   std::string link_detail;                           // why the link is not up; empty if it is
   bool drives_on = true;
+  std::string stop_cause;  // why the arm is stopped; empty if it is not
   // Share of the planned speed, 0 to 1: of this arm; and at which it goes, with that of the cell.
   double speed_override = 1.0;
   double effective_speed_override = 1.0;

@@ -210,8 +210,10 @@ TimePoint Executive::Impl::settled_until() const {
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
                            Alert::Level level, StopCategory category) {
   // Whoever asks again and again is heard each time, and told of once.
-  const bool is_news =
-      std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stop_cause(arm) != cause; });
+  const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
+    const auto& stop = scheduler_.stop_of(arm);
+    return !stop || stop->cause != cause;
+  });
   if (is_news) {
     publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
                     clock_.now);

@@ -11,15 +11,19 @@ std::vector<LinkWatch::Change> LinkWatch::look(const Motions& motions) {
     const ArmLink& link = motions.link(ArmId{a});
     const bool is_up = link.state() == ArmLink::State::up || link.state() == ArmLink::State::stale;
     const Seen now = is_up                                        ? Seen::up
-                     : link.state() == ArmLink::State::connecting ? Seen::waiting
-                                                                  : Seen::lost;
+                     : link.state() != ArmLink::State::connecting ? Seen::lost
+                     : link.was_in_use()                          ? Seen::in_use
+                                                                  : Seen::waiting;
     const Seen before = std::exchange(seen_[a], now);
-    if (before == now) continue;
-    if (now == Seen::waiting) changes.push_back({ArmId{a}, Kind::waits, link.detail()});
-    if (now == Seen::lost) changes.push_back({ArmId{a}, Kind::lost, link.detail()});
-    if (now == Seen::up && before == Seen::waiting)
-      changes.push_back({ArmId{a}, Kind::connected, {}});
-    if (now == Seen::up && before == Seen::lost) changes.push_back({ArmId{a}, Kind::back, {}});
+    const bool is_news = before != now || (now == Seen::waiting && details_[a] != link.detail());
+    details_[a] = link.detail();
+    if (!is_news || (before == Seen::nothing && now == Seen::up)) continue;
+    const Kind kind = now == Seen::waiting   ? Kind::waits
+                      : now == Seen::in_use  ? Kind::in_use
+                      : now == Seen::lost    ? Kind::lost
+                      : before == Seen::lost ? Kind::back
+                                             : Kind::connected;
+    changes.push_back({ArmId{a}, kind, link.detail()});
   }
   return changes;
 }

@@ -12,24 +12,26 @@ class LinkWatch {
  public:
   struct Change {
     enum class Kind {
-      waits,      // the controller has not connected yet
+      waits,      // the controller has not connected yet; again when `detail` changes
+      in_use,     // likewise: it serves another server
       connected,  // its first report has arrived
       lost,
       back,  // up again after it was lost
     };
     ArmId arm;
     Kind kind;
-    std::string detail;  // waits, lost: why
+    std::string detail;  // why the link is not up; empty if it is
   };
-  explicit LinkWatch(std::size_t arms) : seen_(arms) {}
+  explicit LinkWatch(std::size_t arms) : seen_(arms), details_(arms) {}
 
   // Returns the changes since the last call. A link that becomes stale, or recovers from that, is
   // no change.
   [[nodiscard]] std::vector<Change> look(const Motions& motions);
 
  private:
-  enum class Seen { nothing, waiting, up, lost };
-  std::vector<Seen> seen_;  // by ArmId
+  enum class Seen { nothing, waiting, in_use, up, lost };
+  std::vector<Seen> seen_;            // by ArmId
+  std::vector<std::string> details_;  // by ArmId, in the last call
 };
 
 }  // namespace armloom

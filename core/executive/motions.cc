@@ -98,7 +98,6 @@ void Motions::release(JobId job) {
 }
 
 void Motions::tick_arms(TimePoint now) {
-  now_ = now;
   for (LinkedArm& arm : arms_) {
     const Duration before = arm.link.feedback().measured_progress;
     arm.link.exchange(*arm.controller, now);

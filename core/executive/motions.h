@@ -53,10 +53,6 @@ class Motions {
   // measured.
   [[nodiscard]] const Configuration& true_positions() const { return truth_; }
   [[nodiscard]] bool moving(ArmId arm) const;
-  // Returns since when the arm is told to brake; nullopt if it was told to move on since then.
-  [[nodiscard]] std::optional<TimePoint> told_to_brake(ArmId arm) const {
-    return arms_[arm.index()].told_to_brake;
-  }
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return arms_[arm.index()].advances; }
   [[nodiscard]] bool all_at_rest() const;
@@ -96,16 +92,10 @@ class Motions {
     std::unique_ptr<ArmController> controller;
     ArmLink link;
     bool advances = false;
-    std::optional<TimePoint> told_to_brake = {};
   };
   template <class Command>
   void command(ArmId arm, Command what) {
     LinkedArm& to = arms_[arm.index()];
-    if constexpr (std::is_same_v<Command, ArmCommand::Brake>) {
-      if (!to.told_to_brake) to.told_to_brake = now_;
-    } else if constexpr (std::is_same_v<Command, ArmCommand::Follow>) {
-      to.told_to_brake.reset();
-    }
     to.link.command(std::move(what));
     to.link.flush(*to.controller);
   }
@@ -114,7 +104,6 @@ class Motions {
   void keep_together(Motion& motion);
 
   CellPtr cell_;
-  TimePoint now_{};
   std::vector<LinkedArm> arms_;  // by ArmId
   std::vector<double> shares_;   // by ArmId: speed override
   Configuration measured_;

@@ -31,7 +31,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .speed = motions.speed(arm),
         .rests = rests,
         .brakes = brakes,
-        .told_to_brake = motions.told_to_brake(arm),
+        .braking_since = link.braking_since(),
         .rests_at = feedback.rests_at,
         .off_path = position.off_path,
         .reported = {link.connection(), feedback.controller_time},

@@ -73,6 +73,7 @@ void Publisher::tell_arms(TimePoint now) {
     ArmStatus& told = told_arms_[arm.index()];
     const bool is_same = status.state == told.state && status.job == told.job &&
                          status.link == told.link && status.drives_on == told.drives_on &&
+                         status.stop_cause == told.stop_cause &&
                          status.speed_override == told.speed_override &&
                          status.effective_speed_override == told.effective_speed_override;
     if (is_same) continue;
@@ -225,7 +226,9 @@ ArmState Publisher::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = shown_.motions.feedback(arm).phase;
   if (phase == Phase::fault) return ArmState::fault;
-  const bool moves = shown_.motions.moving(arm) && !is_told_of_a_start(arm);
+  // A lost arm has come to rest, or will do so; what it does is not known.
+  const bool is_lost = shown_.motions.link(arm).state() == ArmLink::State::lost;
+  const bool moves = shown_.motions.moving(arm) && !is_lost && !is_told_of_a_start(arm);
   if (shown_.scheduler.stopped(arm) && !moves) return ArmState::stopped;
   const auto job = shown_.scheduler.occupant(arm);
   if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::paused;
@@ -242,6 +245,7 @@ ArmStatus Publisher::status_of(ArmId arm) const {
                    .drives_on = shown_.motions.feedback(arm).drives_on,
                    .speed_override = shown_.scheduler.speed().arm(arm),
                    .effective_speed_override = shown_.scheduler.speed().effective(arm)};
+  if (const auto& stop = shown_.scheduler.stop_of(arm)) status.stop_cause = stop->cause;
   status.deviation_max_rad = std::max(arms_[arm.index()].deviation_max_rad, status.deviation_rad);
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {

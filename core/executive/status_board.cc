@@ -50,6 +50,7 @@ ArmView view_of(const ArmStatus& status, ArmId id, const Cell& cell, const Confi
                .link = status.link,
                .link_detail = status.link_detail,
                .drives_on = status.drives_on,
+               .stop_cause = status.stop_cause,
                .speed_override = status.speed_override,
                .effective_speed_override = status.effective_speed_override};
   for (JointId joint : arm.joints) {

@@ -19,6 +19,7 @@ namespace armloom {
 struct ArmStatus {
   ArmState state = ArmState::idle;
   bool stopped = false;           // until it is resumed
+  std::string stop_cause = {};    // ArmView
   std::optional<JobId> job = {};  // in motion or paused
   double progress = 0.0;          // of this job
   double deviation_rad = 0.0;     // ArmView

@@ -10,9 +10,6 @@
 namespace armloom {
 namespace {
 
-// Cause of the stop of an arm whose controller has not connected yet.
-const std::string kConnects = "waiting for its controller: ";
-
 MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
   MonitorEvent event{.finding = finding, .text = sentence(finding, cell)};
   if (finding.joint) event.joint = cell.joint(*finding.joint).name;
@@ -76,25 +73,32 @@ void Executive::Impl::watch() {
 }
 
 // An arm whose link is lost comes to rest by itself, within its authority. It stays stopped until
-// it is resumed, also when the link is back.
+// it is resumed, also when the link is back. The first connection ends only the stop that waited
+// for it: an arm that was stopped, or that moved for another server, does not move before a resume.
 void Executive::Impl::watch_links() {
   for (const LinkWatch::Change& change : links_.look(execution_.motions())) {
     using Kind = LinkWatch::Change::Kind;
     const std::string& arm = cell_->arm(change.arm).name;
     switch (change.kind) {
       case Kind::waits:
-        stop({change.arm}, kConnects + change.detail, Alert::Level::info);
+        step(Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
+        publisher_.tell(
+            Alert{Alert::Level::info, arm + " waits for its controller: " + change.detail},
+            clock_.now);
+        break;
+      case Kind::in_use:
+        stop({change.arm}, "its controller served another server: " + change.detail);
         break;
       case Kind::lost:
         stop({change.arm}, "link lost: " + change.detail);
         break;
-      case Kind::connected: {
-        locate(change.arm);
-        const auto& cause = scheduler_.stop_cause(change.arm);
-        if (cause && cause->starts_with(kConnects)) resume({change.arm});
-        break;
-      }
+      case Kind::connected:
       case Kind::back:
+        if (change.kind == Kind::connected) locate(change.arm);
+        if (const auto& stop = scheduler_.stop_of(change.arm); stop && stop->until_connected) {
+          resume({change.arm});
+          break;
+        }
         publisher_.tell(Alert{Alert::Level::info, "arm " + arm +
                                                       ": its controller reports again; the arm "
                                                       "stays stopped until it is resumed"},

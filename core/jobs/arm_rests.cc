@@ -70,10 +70,15 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
   for (std::size_t i = 0; i < leg.arms.size(); ++i) places_at_[leg.arms[i].index()] = leg.to[i];
 }
 
+void ArmRests::stop(ArmId arm, std::string cause, bool until_connected) {
+  std::optional<StopOfArm>& stop = stopped_[arm.index()];
+  if (!stop || stop->until_connected) stop = {std::move(cause), until_connected};
+}
+
 std::optional<Wait> ArmRests::stop_of(const Job& job) const {
   for (ArmId arm : job.trajectory->arms()) {
     const auto& stop = stopped_[arm.index()];
-    if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *stop};
+    if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
   }
   return std::nullopt;
 }

@@ -33,10 +33,16 @@ class ArmRests {
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
 
-  void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
+  // Of several stops, the first one counts; a stop until the connection is replaced by any other.
+  void stop(ArmId arm, std::string cause, bool until_connected = false);
   void resume(ArmId arm) { stopped_[arm.index()].reset(); }
-  [[nodiscard]] bool is_stopped(ArmId arm) const { return stop_cause(arm).has_value(); }
-  [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {
+  [[nodiscard]] bool is_stopped(ArmId arm) const { return stop_of(arm).has_value(); }
+  // A stop of an arm that has not ended.
+  struct StopOfArm {
+    std::string cause;
+    bool until_connected = false;  // Stop::StoppedArm
+  };
+  [[nodiscard]] const std::optional<StopOfArm>& stop_of(ArmId arm) const {
     return stopped_[arm.index()];
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
@@ -53,7 +59,7 @@ class ArmRests {
 
  private:
   Configuration rest_;
-  std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
+  std::vector<std::optional<StopOfArm>> stopped_;  // per arm
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves

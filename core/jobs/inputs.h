@@ -103,6 +103,9 @@ struct Stop {
   struct StoppedArm {
     ArmId arm;
     std::string cause;  // "operator", or the monitor's sentence
+    // Its controller has not connected yet: the stop ends then. Any other stop of the arm replaces
+    // it, and stays.
+    bool until_connected = false;
   };
   std::vector<StoppedArm> arms;
 

@@ -240,8 +240,8 @@ void give_up(State& state, Record& record, const AfterStop& after) {
 
 void stop_arms(State& state, const Stop& stop) {
   ++state.version;  // an answer that is under way shall start nothing on these arms
-  for (const auto& [arm, cause] : stop.arms) {
-    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, cause);
+  for (const auto& [arm, cause, until_connected] : stop.arms) {
+    state.arms.stop(arm, cause, until_connected);
     if (state.jobs.queues()[arm].empty()) continue;
     Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place

@@ -216,11 +216,14 @@ void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
                               std::vector<MonitorFinding>& found) {
   const ArmObservation& now = seen.arms[arm.index()];
   MonitorFinding finding{.kind = Kind::stop_ignored, .time = seen.time};
-  if (!now.told_to_brake || !now.motion || now.rests) {
+  const ArmObservation& last = arms_[arm.index()].last;
+  const bool advances =
+      std::max(now.commanded, now.measured) > std::max(last.commanded, last.measured);
+  if (!now.braking_since || !now.motion || now.rests || !advances) {
     return judge(arm, false, true, std::move(finding), found);
   }
   const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
-  const Duration told = seen.time - *now.told_to_brake;
+  const Duration told = seen.time - *now.braking_since;
   const Duration allowance =
       controller.reaction + controller.feedback_period + kSettles * controller.lag;
   finding.value = to_seconds(told);

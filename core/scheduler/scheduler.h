@@ -89,8 +89,8 @@ class Scheduler {
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   // Returns nullopt if the arm is not stopped.
-  [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {
-    return state_.arms.stop_cause(arm);
+  [[nodiscard]] const std::optional<ArmRests::StopOfArm>& stop_of(ArmId arm) const {
+    return state_.arms.stop_of(arm);
   }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion, braking or held
   // Returns true if all admitted motions can reach their ends by their orders. For tests.

@@ -13,9 +13,8 @@ RemoteController::RemoteController(std::shared_ptr<RemoteRobot> robot, const Cel
   const std::vector<ArmId>& arms = cell.robots[arm.robot.index()].arms;
   arm_ = static_cast<std::size_t>(std::ranges::find(arms, id) - arms.begin());
   joints_.insert(joints_.end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
-  connection_ = {
-      false, "waiting for the controller at " + cell.robots[arm.robot.index()].controller.endpoint,
-      0};
+  connection_ = {false, "no answer yet from " + cell.robots[arm.robot.index()].controller.endpoint,
+                 0};
 }
 
 void RemoteController::send(const ArmCommand& command) {

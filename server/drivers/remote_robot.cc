@@ -126,14 +126,14 @@ void RemoteRobot::publish_down(std::string why) {
   if (why == why_down_) return;
   why_down_ = std::move(why);
   for (std::size_t arm = 0; arm < inboxes_.size(); ++arm) {
-    push(arm, ArmConnection{false, why_down_, connection_});
+    push(arm, ArmConnection{false, why_down_, connection_, is_in_use_});
   }
 }
 
 void RemoteRobot::run(std::stop_token stop) {
   milliseconds pause = kFirstPause;
   while (!stop.stop_requested()) {
-    is_welcome_ = false;
+    is_welcome_ = is_in_use_ = false;
     std::string why = converse(stop);
     if (stop.stop_requested()) return;
     pause = is_welcome_ ? kFirstPause : std::min(2 * pause, kLongestPause);
@@ -202,6 +202,7 @@ std::optional<std::string> RemoteRobot::hear(const std::string& line, std::size_
   auto message = read_controller_line(line);
   if (!message) return endpoint_.text() + " sent a bad message: " + phrase(message.error());
   if (const auto* refusal = std::get_if<HelloRefusal>(&*message)) {
+    is_in_use_ = refusal->pointer == "/session";
     return endpoint_.text() +
            " refused the connection: " + (refusal->pointer.empty() ? "" : refusal->pointer + ": ") +
            refusal->detail;

@@ -85,6 +85,7 @@ class RemoteRobot {
   std::uint64_t connection_ = 0;
   bool is_up_ = false;
   bool is_welcome_ = false;
+  bool is_in_use_ = false;  // refused, because the controller serves another server
   std::string why_down_;
   std::deque<ClockSample> clock_;
   std::jthread thread_;  // the last: it ends first

@@ -103,6 +103,8 @@ FormatPtr<ArmView> arm_format() {
                         "Why the link is not up; null if it is"),
             output_only("drives_on", &ArmView::drives_on, flag(),
                         "False after a stop of category 0 or 1, until the arm's next motion"),
+            output_only("stop_cause", &ArmView::stop_cause, text_or_null(),
+                        "Why the arm is stopped until it is resumed; null if it is not stopped"),
             arm_speed_part(),
         }));
   }();

@@ -150,6 +150,7 @@ PartPtr<ArmConnection> connection_part() {
       always("is_up", &ArmConnection::is_up, flag()),
       always("detail", &ArmConnection::detail, text()),
       always("number", &ArmConnection::number, whole()),
+      always("is_in_use", &ArmConnection::is_in_use, flag()),
   });
 }
 

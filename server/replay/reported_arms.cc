@@ -25,9 +25,7 @@ class RecordedArm final : public ArmController {
       return report;
     }
     ArmConnection after = inner_->connection();
-    const bool is_same = after.is_up == before.is_up && after.number == before.number &&
-                         after.detail == before.detail;
-    if (!is_same) {
+    if (after != before) {
       inputs_.came(cycles_before(now), {ExecutiveInput::Connected{name_, std::move(after)}});
     }
     return nullptr;
@@ -58,7 +56,7 @@ class ReportedArms::Arm final : public ArmController {
  public:
   Arm(std::vector<JointId> joints, std::string endpoint, std::shared_ptr<std::deque<Event>> events)
       : joints_(std::move(joints)),
-        connection_{false, "waiting for the controller at " + endpoint, 0},
+        connection_{false, "no answer yet from " + endpoint, 0},
         events_(std::move(events)) {}
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return joints_; }

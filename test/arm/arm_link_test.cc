@@ -249,6 +249,24 @@ TEST_F(Link, SendsABrakeAlsoWhileItIsStaleAndDropsWhatWaits) {
   EXPECT_EQ(controller.sent.size(), 1u) << "the dropped motion is not sent later";
 }
 
+TEST_F(Link, KnowsSinceWhenTheControllerObeysABrake) {
+  come_up();
+  follow();
+  acknowledged = 1;
+  report(Phase::moving, 10ms);
+  link.command(ArmCommand::Brake{});
+  pass(60ms);
+  report(Phase::moving, 70ms);
+  EXPECT_FALSE(link.braking_since()) << "not acknowledged";
+  acknowledged = 2;
+  report(Phase::braking, 80ms);
+  EXPECT_EQ(link.braking_since(), now);
+  report(Phase::stopped, 90ms);
+  EXPECT_EQ(link.braking_since(), now - 1ms);
+  follow();
+  EXPECT_FALSE(link.braking_since());
+}
+
 // The server side of "reconnecting never starts a motion".
 TEST_F(Link, DropsCommandsOfABrokenConnection) {
   come_up();

@@ -217,11 +217,21 @@ TEST(Premises, TakeTheRateFromTheClockOfTheController) {
   EXPECT_THAT(w.look(), IsEmpty());
 }
 
+// It waits at its authority, and its controller still calls it moving.
+TEST(Premises, DoNotTakeAnArmAtRestForOneThatIgnoresItsStop) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 200ms), IsEmpty());
+  w.arm().braking_since = w.seen.time;
+  w.arm().authority = 200ms;
+  for (int i = 0; i < 300; ++i) ASSERT_THAT(w.look(), IsEmpty()) << i;
+}
+
 TEST(Premises, ReportAnArmThatIgnoresItsStop) {
   Watched w;
   w.start();
   ASSERT_THAT(w.follow(10ms, 200ms), IsEmpty());
-  w.arm().told_to_brake = w.seen.time;
+  w.arm().braking_since = w.seen.time;
   Duration progress = 200ms;
   std::vector<MonitorFinding> found;
   while (found.empty() && progress < 1990ms) {

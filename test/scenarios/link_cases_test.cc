@@ -27,6 +27,7 @@ class RestartedArm final : public ArmController {
   [[nodiscard]] ArmConnection connection() const override { return connection_; }
 
   void switch_off() { connection_ = {false, "switched off", connection_.number}; }
+  void say_in_use() { connection_ = {false, "in use", connection_.number, true}; }
   void switch_on_at(double position_m) {
     inner_ =
         std::make_unique<SimulatedArm>(cell_, arm_, Eigen::VectorXd::Constant(1, position_m), 1);
@@ -74,6 +75,7 @@ TEST(LostLink, StopsItsArmUntilItIsResumed) {
   EXPECT_EQ(cell.job("loses").state, JobState::running);
   cell.run_until(at(1500ms));
   EXPECT_EQ(cell.simulation->executive().arms()[0].link, LinkState::lost);
+  EXPECT_EQ(cell.simulation->executive().arms()[0].state, ArmState::stopped);
   EXPECT_EQ(cell.simulation->executive().resume({ArmId{0}}), std::vector{ArmId{0}});
   cell.run_until(at(3s));
   EXPECT_EQ(cell.simulation->executive().arms()[0].link, LinkState::up);
@@ -183,7 +185,7 @@ TEST(FirstConnection, JobsWaitForItAndThenRunFromWhereTheArmIs) {
   EXPECT_EQ(s.arm(1).state, ArmState::stopped);
   const JobView waiting = s.cell.job("waits");
   ASSERT_FALSE(waiting.waits_on.empty());
-  EXPECT_EQ(waiting.waits_on.front().detail, "waiting for its controller: switched off");
+  EXPECT_EQ(waiting.waits_on.front().detail, "its controller has not connected: switched off");
   s.arms[0]->switch_on_at(-0.5);
   s.arms[1]->switch_on_at(-1.0);
   s.cell.run_to_the_end();
@@ -192,6 +194,40 @@ TEST(FirstConnection, JobsWaitForItAndThenRunFromWhereTheArmIs) {
   s.cell.submit(slide("x", -0.5, -1, 4, "from there"));
   s.cell.run_to_the_end();
   EXPECT_EQ(s.cell.job("from there").state, JobState::succeeded);
+}
+
+TEST(FirstConnection, EndsNoStopOfTheOperator) {
+  for (const bool stopped_before : {false, true}) {
+    Switched s(true);
+    if (stopped_before) s.executive().stop({ArmId{1}}, "operator");
+    s.cell.submit(slide("y", -1, 1, 4, "waits"));
+    s.cell.run_until(at(1s));
+    if (!stopped_before) s.executive().stop({ArmId{1}}, "operator");
+    s.cell.run_until(at(2s));
+    EXPECT_EQ(s.arm(1).stop_cause, "operator");
+    s.arms[1]->switch_on_at(-1.0);
+    s.cell.run_until(at(5s));
+    EXPECT_EQ(s.arm(1).q.front(), -1.0);
+    EXPECT_EQ(s.arm(1).state, ArmState::stopped);
+    EXPECT_TRUE(s.executive().resume({ArmId{1}}).empty());
+    s.cell.run_until(at(10s));
+    EXPECT_EQ(s.cell.job("waits").state, JobState::succeeded);
+  }
+}
+
+TEST(FirstConnection, StartsNothingOnAnArmThatServedAnotherServer) {
+  Switched s(true);
+  s.cell.submit(slide("y", -1, 1, 4, "waits"));
+  s.arms[1]->say_in_use();
+  s.cell.run_until(at(1s));
+  s.arms[1]->switch_on_at(-1.0);
+  s.cell.run_until(at(5s));
+  EXPECT_EQ(s.arm(1).q.front(), -1.0);
+  EXPECT_EQ(s.arm(1).state, ArmState::stopped);
+  EXPECT_NE(s.arm(1).stop_cause.find("another server"), std::string::npos);
+  EXPECT_TRUE(s.executive().resume({ArmId{1}}).empty());
+  s.cell.run_until(at(10s));
+  EXPECT_EQ(s.cell.job("waits").state, JobState::succeeded);
 }
 
 // An arm that moves in real time, beside a server whose cell time slips.

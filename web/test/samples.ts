@@ -6,7 +6,7 @@ export function arm_json(name: string, over: object = {}): Record<string, unknow
   return {
     name, robot: name, state: 'idle', job: null, progress: 0,
     joints: [`${name}_panda_joint1`, `${name}_panda_joint2`], q: [0.1, -1.2], home: [0, -1.2],
-    deviation_rad: 0.0002, deviation_max_rad: 0.0005, link: 'up', link_detail: null, drives_on: true, ...over,
+    deviation_rad: 0.0002, deviation_max_rad: 0.0005, link: 'up', link_detail: null, drives_on: true, stop_cause: null, ...over,
   };
 }
 
