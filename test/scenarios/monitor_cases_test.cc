@@ -196,8 +196,10 @@ TEST(Monitor, SwitchesTheDrivesOfAnArmOffThatIgnoresItsStop) {
   Crossing cell(crossing_description(), "certified");
   cell.submit(slide("x", -1, 1, 8, "ignores"));
   Executive& executive = cell.simulation->executive();
-  ASSERT_TRUE(executive.faults().inject(
-      {.arm = "x", .kind = ArmFault::Kind::ignore_stop, .at = at(1s), .lasting = 100s}));
+  for (const auto kind : {ArmFault::Kind::ignore_stop, ArmFault::Kind::runaway}) {
+    ASSERT_TRUE(
+        executive.faults().inject({.arm = "x", .kind = kind, .at = at(1s), .lasting = 100s}));
+  }
   cell.run_until(at(2s));
   executive.stop({ArmId{0}}, "operator");
   cell.run_until(at(2100ms));
@@ -208,6 +210,19 @@ TEST(Monitor, SwitchesTheDrivesOfAnArmOffThatIgnoresItsStop) {
   const double stands = executive.arms()[0].q.front();
   cell.run_until(at(5s));
   EXPECT_EQ(executive.arms()[0].q.front(), stands);
+}
+
+TEST(Monitor, LeavesTheDrivesOnIfAnArmRestsAtItsAuthority) {
+  Crossing cell(crossing_description(), "certified");
+  cell.submit(slide("x", -1, 1, 8, "ignores"));
+  Executive& executive = cell.simulation->executive();
+  ASSERT_TRUE(executive.faults().inject(
+      {.arm = "x", .kind = ArmFault::Kind::ignore_stop, .at = at(1s), .lasting = 5s}));
+  cell.run_until(at(2s));
+  executive.stop({ArmId{0}}, "operator");
+  cell.run_until(at(5s));
+  EXPECT_TRUE(executive.arms()[0].drives_on);
+  EXPECT_FALSE(is_terminal(cell.job("ignores").state));
 }
 
 }  // namespace
