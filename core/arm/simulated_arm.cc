@@ -206,7 +206,7 @@ void SimulatedArm::coast(Duration period) {
   if (fastest > 0.0) return;
   coasting_.reset();
   feedback_.phase = Phase::fault;
-  feedback_.detail = "the drives were switched off in motion: the arm left its path";
+  feedback_.detail = "the drives were switched off in motion, so the arm is off its path";
 }
 
 bool SimulatedArm::stands() const {

@@ -30,21 +30,21 @@ std::string about_pair(const MonitorFinding& finding) {
 std::string about_joint(const MonitorFinding& finding, const Cell& cell) {
   if (!finding.joint) return {};
   const Joint& joint = cell.joint(*finding.joint);
-  return joint.name + figure(" by %.4f ", finding.value) + joint.unit() +
-         figure(", limit %.4f ", finding.limit) + joint.unit();
+  return joint.name + figure(" by %.6g ", finding.value) + joint.unit() +
+         figure(", limit %.6g ", finding.limit) + joint.unit();
 }
 
 }  // namespace
 
 std::string sentence(const MonitorFinding& finding, const Cell& cell) {
   if (is_about_pair(finding.kind)) return about_pair(finding);
-  const std::string arm = finding.arm ? cell.arm(*finding.arm).name : std::string();
+  const std::string arm = "arm " + (finding.arm ? cell.arm(*finding.arm).name : std::string());
   const std::string limit = figure("%.3f s", finding.limit);
   switch (finding.kind) {
     case Kind::deviation:
-      return arm + " left its path: " + about_joint(finding, cell);
+      return arm + " is off its path: " + about_joint(finding, cell);
     case Kind::unplanned_motion:
-      return arm + " moves without a motion: " + about_joint(finding, cell);
+      return arm + " moved without a motion: " + about_joint(finding, cell);
     case Kind::early_finish:
       return arm + " finished away from its goal: " + about_joint(finding, cell);
     case Kind::beyond_authority:

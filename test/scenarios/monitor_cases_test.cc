@@ -50,7 +50,7 @@ TEST(Monitor, StopsAnArmThatLeavesItsPath) {
   EXPECT_EQ(stopped.state, JobState::paused);
   ASSERT_EQ(stopped.waits_on.front().kind, Wait::Kind::stop);
   EXPECT_EQ(stopped.waits_on.front().detail, "monitor: " + found.front().text);
-  EXPECT_THAT(found.front().text, testing::StartsWith("x left its path: x_slide by 0.00"));
+  EXPECT_THAT(found.front().text, testing::StartsWith("arm x is off its path: x_slide by 0.00"));
   EXPECT_LT(cell.log.last[0], -0.8) << "it has stopped";
   EXPECT_EQ(cell.job("unconcerned").state, JobState::running);
   cell.run_until(at(5s));
