@@ -29,7 +29,8 @@ double seconds(std::chrono::nanoseconds time) {
 }
 
 const Buckets kPeriods{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0};
-const Buckets kReactions{0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02};
+const Buckets kReactions{0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002,
+                         0.005,   0.01,   0.02,   0.03,   0.05,  0.1};
 const Buckets kLatencies{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0};
 
 // Returns the label of one side of a pair. All objects share the label "scene", because clients may
@@ -70,16 +71,21 @@ class Metrics::Impl {
   void watch_begins() {
     const auto now = Clock::now();
     if (watch_began_) {
-      const double periods = seconds(now - *watch_began_) * cell_->monitor.rate_hz / scale_;
+      const double period = scale_ / cell_->monitor.rate_hz;
+      const double gap = seconds(now - *watch_began_);
+      late_.Observe(std::max(0.0, gap - period));
       // Up to a period and a half is jitter.
-      if (periods >= 1.5) missed_.Increment(std::round(periods) - 1.0);
+      if (gap >= 1.5 * period) missed_.Increment(std::round(gap / period) - 1.0);
     }
     watch_began_ = now;
   }
 
   void monitor_stopped(std::size_t arms) {
     arms_stopped_.Increment(static_cast<double>(arms));
-    if (watch_began_) reactions_.Observe(seconds(Clock::now() - *watch_began_));
+    if (!watch_began_) return;
+    const double took = seconds(Clock::now() - *watch_began_);
+    reactions_.Observe(took);
+    if (took > slowest_reaction_.Value()) slowest_reaction_.Set(took);
   }
 
   void watched(const StateFrame& frame) {
@@ -231,6 +237,13 @@ class Metrics::Impl {
   Histogram& reactions_ =
       histograms("armloom_monitor_reaction_seconds",
                  "Time from the beginning of a monitor period to the stop commands of its findings")
+          .Add({}, kReactions);
+  Gauge& slowest_reaction_ = gauges("armloom_monitor_reaction_worst_seconds",
+                                    "Longest armloom_monitor_reaction_seconds since the start")
+                                 .Add({});
+  Histogram& late_ =
+      histograms("armloom_monitor_late_seconds",
+                 "Time by which a monitor period began more than a period after the one before")
           .Add({}, kReactions);
   using Clock = std::chrono::steady_clock;
   std::optional<Clock::time_point> watch_began_;  // the strand's

@@ -67,8 +67,8 @@ class Events:
         taken, self.buffer = self.buffer[:count], self.buffer[count:]
         return taken
 
-    def wait_for(self, job, state):
-        """Returns the time at which the event arrived."""
+    def next(self):
+        """Returns the next event that is no pose; `arrived` is the time at which it arrived."""
         while True:
             kind, size = self.take(2)
             size &= 0x7F
@@ -77,15 +77,19 @@ class Events:
             elif size == 127:
                 size = struct.unpack(">Q", self.take(8))[0]
             payload = self.take(size)
-            arrived = time.perf_counter()
+            self.arrived = time.perf_counter()
             if kind & 0x0F == 9:  # a ping: answer with a pong of the same payload, mask zero
                 self.socket.sendall(bytes([0x8A, 0x80 | size, 0, 0, 0, 0]) + payload)
             if kind & 0x0F != 1 or b'"type":"state"' in payload[:20]:
                 continue
-            event = json.loads(payload)
-            if event["type"] == "job" and event["data"]["id"] == job:
-                if event["data"]["state"] == state:
-                    return arrived
+            return json.loads(payload)
+
+    def wait_for(self, job, state):
+        """Returns the time at which the event arrived."""
+        while True:
+            event = self.next()
+            if event["type"] == "job" and event["data"]["id"] == job and event["data"]["state"] == state:
+                return self.arrived
 
 
 def post(connection, port, body):

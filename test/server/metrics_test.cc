@@ -67,6 +67,7 @@ TEST_F(MetricsRoute, ReportsLoopsClearanceAndStops) {
   const auto values = figures();
   EXPECT_GT(values.at("armloom_period_seconds_count{loop=\"control\"}"), 0);
   EXPECT_GT(values.at("armloom_period_seconds_count{loop=\"monitor\"}"), 0);
+  EXPECT_GT(values.at("armloom_monitor_late_seconds_count"), 0);
   EXPECT_GE(values.at("armloom_overruns_total{loop=\"control\"}"), 0);
   EXPECT_GT(values.at("armloom_period_worst_seconds{loop=\"control\"}"), 0.0009);
   EXPECT_EQ(values.at("armloom_stop_latency_seconds_count"), 1);
