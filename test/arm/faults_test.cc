@@ -125,6 +125,22 @@ TEST(FaultyArm, RejectsOneMotion) {
   EXPECT_EQ(bench.last.phase, Phase::moving);
 }
 
+TEST(FaultyArm, StandsOnItsPathWhileItStalls) {
+  FaultyBench bench;
+  bench.follow();
+  bench.run(bench.half / 4);
+  bench.inject(Kind::stall);
+  bench.run(1s);
+  const Duration stands_at = bench.last.measured_progress;
+  EXPECT_GT(stands_at, 0s);
+  EXPECT_LT(stands_at, bench.half);
+  bench.run(bench.half);
+  EXPECT_EQ(bench.last.measured_progress, stands_at);
+  ASSERT_TRUE(bench.arm.remove(bench.id));
+  bench.run(bench.half + 1s);
+  EXPECT_EQ(bench.last.measured_progress, bench.half);
+}
+
 TEST(FaultyArm, RunsAwayPastItsAuthorityUnlessItBrakes) {
   FaultyBench bench;
   bench.inject(Kind::runaway);
