@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/monitor/path_distance.h"
 #include "core/trajectory/set_joints.h"
 #include "core/trajectory/stopping_reach.h"
 
@@ -202,22 +203,14 @@ TrajectoryPtr Motions::trajectory(ArmId arm) const {
   return nullptr;
 }
 
-double Motions::deviation(ArmId arm) const {
-  for (const auto& [job, motion] : motions_) {
-    const auto& arms = motion.trajectory->arms();
-    if (std::ranges::find(arms, arm) == arms.end()) continue;
-    Eigen::VectorXd path;
-    motion.trajectory->sample_positions(feedback(arm).measured_progress, path);
-    double largest = 0.0;
-    for (std::size_t j = 0; j < motion.trajectory->joints().size(); ++j) {
-      const JointId joint = motion.trajectory->joints()[j];
-      if (cell_->joint(joint).arm != arm) continue;
-      largest = std::max(largest, std::abs(measured_[static_cast<Eigen::Index>(joint.index())] -
-                                           path[static_cast<Eigen::Index>(j)]));
-    }
-    return largest;
-  }
-  return 0.0;
+double Motions::deviation(ArmId arm, double enough) const {
+  const TrajectoryPtr motion = trajectory(arm);
+  if (!motion) return 0.0;
+  const ArmFeedback& said = feedback(arm);
+  return distance_from_path(*motion, joints(arm), said.measured_progress,
+                            std::max(said.commanded_progress, said.measured_progress), measured_,
+                            enough)
+      .distance;
 }
 
 std::vector<Motions::UnderWay> Motions::under_way() const {

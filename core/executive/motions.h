@@ -58,9 +58,10 @@ class Motions {
   [[nodiscard]] bool all_at_rest() const;
   // Returns true if all arms rest, and stay at rest until the next command.
   [[nodiscard]] bool all_settled() const;
-  // Returns the largest distance of a measured joint from its path at the measured progress, rad or
-  // m; zero without a motion.
-  [[nodiscard]] double deviation(ArmId arm) const;
+  // Returns the distance of the arm's joints from one point of its path between the measured and
+  // the commanded progress (rad, m): of the nearest point, or of the first that is at most `enough`
+  // away. Zero without a motion.
+  [[nodiscard]] double deviation(ArmId arm, double enough) const;
   // Returns the largest authority granted to the arm's motion so far; zero without a motion.
   [[nodiscard]] Duration granted(ArmId arm) const;
   // Returns null if the arm has no motion.

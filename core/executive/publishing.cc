@@ -237,16 +237,17 @@ ArmState Publisher::state_of(ArmId arm) const {
 }
 
 ArmStatus Publisher::status_of(ArmId arm) const {
+  const double deviation_max_rad = arms_[arm.index()].deviation_max_rad;
   ArmStatus status{.state = state_of(arm),
                    .stopped = shown_.scheduler.stopped(arm),
-                   .deviation_rad = shown_.motions.deviation(arm),
+                   .deviation_rad = shown_.motions.deviation(arm, deviation_max_rad),
                    .link = shown_.motions.link(arm).state(),
                    .link_detail = shown_.motions.link(arm).detail(),
                    .drives_on = shown_.motions.feedback(arm).drives_on,
                    .speed_override = shown_.scheduler.speed().arm(arm),
                    .effective_speed_override = shown_.scheduler.speed().effective(arm)};
   if (const auto& stop = shown_.scheduler.stop_of(arm)) status.stop_cause = stop->cause;
-  status.deviation_max_rad = std::max(arms_[arm.index()].deviation_max_rad, status.deviation_rad);
+  status.deviation_max_rad = std::max(deviation_max_rad, status.deviation_rad);
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
     const Job& job = *shown_.scheduler.find(*status.job);

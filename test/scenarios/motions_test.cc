@@ -81,6 +81,23 @@ TEST_F(ScriptedArms, ReportMeasuredProgressOnly) {
   EXPECT_EQ(reports.front().progress, 1900ms);
 }
 
+// Positions may be ahead of the progress that they prove.
+TEST_F(ScriptedArms, DeviateFromTheStretchUpToTheCommandedProgress) {
+  dispatch({ArmId{0}});
+  const TrajectoryPtr motion = motions->trajectory(ArmId{0});
+  Eigen::VectorXd path;
+  motion->sample_positions(1970ms, path);
+  arms[0]->says.measured = path;
+  say(0, 2s, 1900ms);
+  (void)motions->tick(TimePoint{} + 1ms);
+  EXPECT_LE(motions->deviation(ArmId{0}, 1e-5), 1e-5);
+  motion->sample_positions(2s, path);
+  arms[0]->says.measured = path.array() + 0.01;
+  (void)motions->tick(TimePoint{} + 2ms);
+  EXPECT_NEAR(motions->deviation(ArmId{0}, 1e-5), 0.01, 1e-4);
+  EXPECT_EQ(motions->deviation(ArmId{1}, 1e-5), 0.0);
+}
+
 TEST_F(ScriptedArms, ReportTheSlowestArmOfAMultiArmMotion) {
   dispatch({ArmId{0}, ArmId{1}});
   say(0, 2s, 1900ms);
