@@ -7,6 +7,16 @@
 #include "server/api/route.h"
 
 namespace armloom {
+namespace {
+
+Problems query_faults(const Target& target, const std::vector<std::string>& parameters) {
+  Problems faults;
+  if (auto fault = query_problem(target, parameters)) faults.push_back(std::move(*fault));
+  if (auto fault = bad_pretty(target)) faults.push_back(std::move(*fault));
+  return faults;
+}
+
+}  // namespace
 
 // Adds the answer's text for people, which counts times from the present cell time.
 Respond Api::with_text(const Route& route, Respond respond) const {
@@ -29,13 +39,15 @@ void Api::add_routes(Router& router) {
     if (route.answers_json()) parameters.emplace_back(kPretty);
     router.add(
         route.method, route.path, route.rights(),
-        [this, &route](const Request& request, const Router::Arguments& arguments,
-                       Respond respond) {
-          if (const auto bad = bad_pretty(request.target)) return respond(refusal_response(*bad));
+        [this, &route, parameters](const Request& request, const Router::Arguments& arguments,
+                                   Respond respond) {
+          auto faults = query_faults(request.target, parameters);
+          if (!route.is_stop && !faults.empty()) return respond(problem_response(faults));
           if (route.as_text != nullptr) respond = with_text(route, std::move(respond));
-          route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});
+          route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(faults),
+                         std::move(respond)});
         },
-        std::move(parameters));
+        parameters);
   }
 }
 

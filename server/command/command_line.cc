@@ -308,8 +308,8 @@ Command stop_command(CLI::App& app) {
       ->add_option(
           "--category", options->category,
           "2: brake, then hold (default); 1: brake, then drives off; 0: drives off at once, "
-          "and the arms leave their paths")
-      ->check(CLI::Range(0, 2));
+          "and the arms leave their paths. With any other value the arms are stopped with 2")
+      ->type_name("CATEGORY");
   add_server(*command, options->server);
   return {command, [options] { return stop_remote_arms(*options); }};
 }
@@ -400,6 +400,7 @@ void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // a flag
     if (option->get_type_name() == "PREFIX") continue;    // one of several may be empty
+    if (option->get_type_name() == "CATEGORY") continue;  // the server stops, then refuses it
     option->check([](const std::string& value) {
       return value.empty() ? std::string("is empty: give it a value or leave the option out")
                            : std::string();

@@ -101,7 +101,7 @@ int cancel_remote_job(const OneJobOptions& options) {
 
 int stop_remote_arms(const ArmsOptions& options) {
   return send_to_arms(options.server, options.arms, "POST",
-                      "/stop?category=" + std::to_string(options.category));
+                      "/stop?category=" + url_segment(options.category));
 }
 int resume_remote_arms(const ArmsOptions& options) {
   return send_to_arms(options.server, options.arms, "POST", "/resume");

@@ -33,7 +33,7 @@ int cancel_remote_job(const OneJobOptions& options);
 struct ArmsOptions {
   RemoteOptions server;
   std::vector<std::string> arms;  // default: all
-  int category = 2;               // of a stop
+  std::string category = "2";     // of a stop; the server stops, and refuses a bad one
 };
 // Stop or resume each of the arms, even if an earlier request fails.
 int stop_remote_arms(const ArmsOptions& options);

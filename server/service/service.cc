@@ -119,9 +119,7 @@ class Service::Impl {
       return refused;
     };
     site.refuse = refusal_response;
-    site.is_never_limited = [this](const Request& request) {
-      return router_.is_never_limited(request);
-    };
+    site.is_stop = [this](const Request& request) { return router_.is_stop(request); };
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere,
                           options_.tls.has_value()};

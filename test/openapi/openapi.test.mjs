@@ -316,8 +316,12 @@ test('arms stop and resume', async () => {
   assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true});
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
   assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true});
-  const wrong = await call(400, 'POST', `${v1}/stop`, {query: '?category=7'});
-  assert.match(wrong.detail, /stopped with category 2/);
+  for (const path of [`${v1}/stop`, `${v1}/arms/{name}/stop`]) {
+    for (const query of ['?category=7', '?categry=0', '?category=0&category=0']) {
+      const wrong = await call(400, 'POST', path, {query, args: {name: 'left'}});
+      assert.match(wrong.detail, /stopped with category 2/);
+    }
+  }
   const args = {name: 'left'};
   const has_link = async (link) => { while ((await call(200, 'GET', `${v1}/arms/{name}`, {args})).link !== link); };
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: {arm: 'left', kind: 'drop_feedback'}});

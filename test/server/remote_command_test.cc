@@ -66,6 +66,18 @@ TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
   EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
 }
 
+TEST_F(RemoteCommand, StopsAlsoIfTheCategoryIsWrong) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  for (const std::string category : {"5", "''"}) {
+    ASSERT_EQ(ask(server.port(), "resume").exit_code, 0);
+    const auto outcome = ask(server.port(), "stop --category " + category);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("within 0..2"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("All arms were stopped with category 2"), std::string::npos);
+    EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+  }
+}
+
 TEST_F(RemoteCommand, ExplainsWhatIsWrong) {
   const auto unreached = ask(1, "jobs");
   EXPECT_EQ(unreached.exit_code, 69);

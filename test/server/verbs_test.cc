@@ -33,6 +33,40 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   expect_refused(post("/api/v1/arms/middle/resume", ""), 404, "request target", "middle");
 }
 
+TEST_F(Verbs, FaultyStopIsRefusedAndStopsAllTheSame) {
+  struct Faulty {
+    std::string query;
+    std::string body;
+    std::string pointer;
+    std::string remedy;
+  };
+  const Faulty all[] = {
+      {"?categry=0", "", "?categry", "known: category, pretty"},
+      {"?category=0&category=0", "", "?category", "send it once"},
+      {"?category=0&x=%1", "", "request target", "send % as %25"},
+      {"?category=7", "", "?category", "within 0..2"},
+      {"?category=", "", "?category", "within 0..2"},
+      {"?category=0&pretty=yes", "", "?pretty", "must be 1, 0"},
+      {"", R"({"category": 0})", "request body", "?category=0"},
+  };
+  start(1.0);
+  for (const Faulty& faulty : all) {
+    for (const std::string path : {"/api/v1/stop", "/api/v1/arms/left/stop"}) {
+      ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+      const auto refused = post(path + faulty.query, faulty.body);
+      EXPECT_EQ(refused.status, 400) << refused.body;
+      EXPECT_EQ(refused.json()["pointer"], faulty.pointer) << refused.body;
+      const std::string detail = refused.json()["detail"];
+      EXPECT_NE(detail.find(faulty.remedy), std::string::npos) << detail;
+      EXPECT_TRUE(detail.ends_with("stopped with category 2")) << detail;
+      const json left = get("/api/v1/arms/left").json();
+      EXPECT_EQ(left["state"], "stopped") << path << faulty.query;
+      EXPECT_EQ(left["drives_on"], true) << "not category 0";
+      EXPECT_EQ(get("/api/v1/queue").json()["stopped"], path == "/api/v1/stop");
+    }
+  }
+}
+
 TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   start(1.0);
   test::Listener listener(port());
