@@ -121,7 +121,7 @@ void stop_all(Call call) {
       [&parts = call.parts, asked, category = order.category](Executive& executive) {
         stop_all(executive, "operator", category);
         parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
-        return Stopped{.stopped = true};
+        return Stopped{.stopped = true, .category = static_cast<int>(category)};
       },
       [respond = call.respond, faults = order.faults](const Stopped& now) {
         respond(faults.empty() ? answer(202, stopped_format(), now) : problem_response(faults));
@@ -236,12 +236,16 @@ Route command(const char* path, const char* id, const char* summary) {
 }  // namespace
 
 std::vector<Route> arm_routes() {
+  const std::string as_category =
+      "as its category says (2 and 1: on the path; 0: each joint brakes by itself, drives off, and "
+      "a moving arm leaves its path)";
   const char* const faulty_stop =
       "A faulty request (an unknown or repeated parameter, a bad value, a body) is answered 400, "
       "and "
       "stops with category 2.";
   Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
-  stop_one.outcomes = {outcome(202, "The arm brakes on its path and stays stopped", arm_format())};
+  stop_one.outcomes = {
+      outcome(202, "The arm stops " + as_category + ", and stays stopped", arm_format())};
   stop_one.refuses = {404};
   stop_one.parameters = stop_query().parameters();
   stop_one.text = faulty_stop;
@@ -257,7 +261,7 @@ std::vector<Route> arm_routes() {
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");
   stop.outcomes = {
-      outcome(202, "All arms brake on their paths and stay stopped", stopped_format())};
+      outcome(202, "All arms stop " + as_category + ", and stay stopped", stopped_format())};
   stop.parameters = stop_query().parameters();
   stop.text = faulty_stop;
   stop.is_stop = true;

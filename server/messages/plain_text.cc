@@ -370,12 +370,19 @@ std::string arm_text(const Schema& arm, double now_s) {
 }
 
 std::string stopped_text(const Schema& stopped, double) {
-  return flag_at(stopped, "stopped")
-             ? "all arms brake on their paths and stay stopped until resumed\n"
-         : list_at(stopped, "not_resumed").empty()
+  static constexpr const char* kEffects[] = {
+      "switch their drives off, each joint brakes by itself, and moving arms leave their paths",
+      "brake on their paths, then switch their drives off",
+      "brake on their paths, then hold their positions"};
+  if (const auto category = number_at(stopped, "category")) {
+    return std::string("all arms ") + kEffects[static_cast<int>(*category)] +
+           "; they stay stopped until resumed\n";
+  }
+  const Schema& absent = list_at(stopped, "not_resumed");
+  return absent.empty()
              ? "all arms are resumed\n"
-             : "not resumed, because there is no link to the controller: " +
-                   joined(list_at(stopped, "not_resumed"), ", ") + "\n";
+             : "not resumed, because there is no link to the controller: " + joined(absent, ", ") +
+                   "\n";
 }
 
 std::string problem_text(const Schema& problem) {

@@ -313,9 +313,9 @@ test('arms stop and resume', async () => {
     await call(202, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'left'}});
     await call(404, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'nobody'}});
   }
-  assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true});
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true, category: 2});
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
-  assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true});
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true, category: 1});
   for (const path of [`${v1}/stop`, `${v1}/arms/{name}/stop`]) {
     for (const query of ['?category=7', '?categry=0', '?category=0&category=0']) {
       const wrong = await call(400, 'POST', path, {query, args: {name: 'left'}});

@@ -33,7 +33,7 @@ TEST_F(AnswerForm, EndsWithANewlineAndIsIndentedIfAsked) {
   EXPECT_EQ(get("/api/v1/queue?pretty=0").body, get("/api/v1/queue").body);
   expect_refused(get("/api/v1/queue?pretty=yes"), 400, "?pretty", "yes");
   EXPECT_EQ(test::request(port(), "POST", "/api/v1/stop?pretty").body,
-            "{\n  \"stopped\": true\n}\n");
+            "{\n  \"stopped\": true,\n  \"category\": 2\n}\n");
 }
 
 TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
@@ -53,6 +53,12 @@ TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
   EXPECT_TRUE(
       ask("/queue", text).body.starts_with("policy earliest_start, all arms are stopped\n"));
   EXPECT_EQ(std::ranges::count(ask("/arms", text).body, '\n'), 3);
+  EXPECT_EQ(ask("/stop?category=0", text, "POST").body,
+            "all arms switch their drives off, each joint brakes by itself, and moving arms leave "
+            "their paths; they stay stopped until resumed\n");
+  EXPECT_EQ(ask("/stop", text, "POST").body,
+            "all arms brake on their paths, then hold their positions; they stay stopped until "
+            "resumed\n");
   EXPECT_EQ(ask("/jobs/wavy", text).body, "no such job \"wavy\"; did you mean wave?\n");
   EXPECT_EQ(ask("/arms/lfet/stop", text, "POST").body,
             "no such arm \"lfet\"; did you mean left?\n");
