@@ -113,6 +113,24 @@ int speed_of_remote_arms(const SpeedOptions& options) {
   return send_to_arms(options.server, options.arms, "PUT", "/speed", body.dump());
 }
 
+int change_remote_faults(const FaultsOptions& options) {
+  const std::string faults = "/sim/faults";
+  if (options.what == FaultsOptions::What::list) return send(options.server, "GET", faults);
+  if (options.what == FaultsOptions::What::remove) {
+    int code = kExitDone;
+    for (const std::string& id : options.ids) {
+      const int one = send(options.server, "DELETE", faults + "/" + url_segment(id));
+      if (code == kExitDone) code = one;
+    }
+    return code;
+  }
+  Schema body{{"arm", options.arm}, {"kind", options.kind}};
+  if (options.value) body["value"] = *options.value;
+  if (options.at_s) body["at_s"] = *options.at_s;
+  if (options.for_s) body["for_s"] = *options.for_s;
+  return send(options.server, "POST", faults, body.dump());
+}
+
 int print_events(const EventsOptions& options) {
   const auto server = read_server_url(options.server.url);
   if (!server) return bad_url(server.error());

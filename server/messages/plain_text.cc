@@ -369,6 +369,25 @@ std::string arm_text(const Schema& arm, double now_s) {
   return arm_list_text({{"arms", Schema::array({arm})}}, now_s);
 }
 
+std::string fault_list_text(const Schema& faults, double now_s) {
+  if (list_at(faults, "faults").empty()) return "no faults\n";
+  std::vector<Row> rows{{"FAULT", "ARM", "KIND", "VALUE", "STARTS", "REMAINING"}};
+  for (const Schema& fault : list_at(faults, "faults")) {
+    const double waits_s = number_at(fault, "at_s").value_or(now_s) - now_s;
+    const char* const lasts = fault.contains("remaining_s") ? "remaining_s" : "for_s";
+    const auto remaining = number_at(fault, lasts);
+    rows.push_back({text_at(fault, "id"), text_at(fault, "arm"), text_at(fault, "kind"),
+                    printed("%g", number_at(fault, "value").value_or(0.0)),
+                    waits_s > 0.0 ? "in " + in_seconds(waits_s) : "now",
+                    remaining ? in_seconds(*remaining) : "-"});
+  }
+  return table_of(rows);
+}
+
+std::string fault_text(const Schema& fault, double now_s) {
+  return fault_list_text({{"faults", Schema::array({fault})}}, now_s);
+}
+
 std::string stopped_text(const Schema& stopped, double) {
   static constexpr const char* kEffects[] = {
       "switch their drives off, each joint brakes by itself, and moving arms leave their paths",

@@ -17,6 +17,8 @@ namespace armloom {
 [[nodiscard]] std::string arm_text(const Schema& arm, double now_s);
 [[nodiscard]] std::string arm_list_text(const Schema& arms, double now_s);
 [[nodiscard]] std::string speed_text(const Schema& speed, double now_s);
+[[nodiscard]] std::string fault_text(const Schema& fault, double now_s);
+[[nodiscard]] std::string fault_list_text(const Schema& faults, double now_s);
 [[nodiscard]] std::string stopped_text(const Schema& stopped, double now_s);
 [[nodiscard]] std::string problem_text(const Schema& problem);
 

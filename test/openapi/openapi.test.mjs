@@ -382,6 +382,8 @@ test('all objects are set and removed at once', async () => {
 test('speed is changed, faults are injected and removed', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
+  const {faults} = await call(200, 'GET', `${v1}/sim/faults`);
+  assert.equal(faults.find(({id}) => id === fault.id).kind, 'slow');
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: {id: 'first'}});

@@ -58,6 +58,32 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
       << refused.err;
 }
 
+TEST_F(RemoteCommand, AddsListsAndRemovesFaults) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  EXPECT_EQ(ask(port, "faults").out, "no faults\n");
+  const auto added = ask(port, "faults add left drift --value -0.2 --at 1e5 --for 2 --json");
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_EQ(json::parse(added.out), json({{"id", "1"},
+                                          {"arm", "left"},
+                                          {"kind", "drift"},
+                                          {"value", -0.2},
+                                          {"at_s", 1e5},
+                                          {"for_s", 2.0}}));
+  EXPECT_NE(ask(port, "faults add right stall").out.find("2      right  stall"), std::string::npos);
+  const auto list = ask(port, "faults list --json");
+  EXPECT_EQ(json::parse(list.out)["faults"].size(), 2U) << list.out << list.err;
+  const auto text = ask(port, "faults").out;
+  EXPECT_TRUE(text.starts_with("FAULT  ARM    KIND   VALUE  STARTS")) << text;
+  const auto removed = ask(port, "faults remove 7 1 2");
+  EXPECT_EQ(removed.exit_code, 2);
+  EXPECT_EQ(removed.err, "armloom: no such fault \"7\"\n");
+  EXPECT_EQ(ask(port, "faults").out, "no faults\n");
+  const auto refused = ask(port, "faults add left slow");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("/value"), std::string::npos) << refused.err;
+}
+
 TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
   const test::ServeProcess server({"--cell", test::kCell}, log());
   const auto outcome = ask(server.port(), "stop lfet left right");
