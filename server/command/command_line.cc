@@ -1,6 +1,7 @@
 #include "server/command/command_line.h"
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -302,10 +303,20 @@ Command audit_command(CLI::App& app) {
   return {command, [options] { return audit_recording(*options); }};
 }
 
-// Refuses empty option values, which come from unset shell variables. For example, `--tokens ""`
-// would admit every request.
-void refuse_empty_values(CLI::App& command) {
+// Checks a number, because the parser would accept nan and inf.
+std::string not_a_number(const std::string& text) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, ec] = std::from_chars(text.data(), end, number);
+  if (ec == std::errc{} && stop == end && std::isfinite(number)) return {};
+  return text + " is not a number";
+}
+
+// Refuses numbers that are none, and empty values, which come from unset shell variables: `--tokens
+// ""` would admit every request.
+void check_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(not_a_number);
     if (option->get_items_expected_max() == 0) continue;  // a flag
     if (option->get_type_name() == "PREFIX") continue;    // one of several may be empty
     if (option->get_type_name() == "CATEGORY") continue;  // the server stops, then refuses it
@@ -314,7 +325,7 @@ void refuse_empty_values(CLI::App& command) {
                            : std::string();
     });
   }
-  for (CLI::App* below : command.get_subcommands({})) refuse_empty_values(*below);
+  for (CLI::App* below : command.get_subcommands({})) check_values(*below);
 }
 
 }  // namespace
@@ -333,7 +344,7 @@ std::vector<Command> add_commands(CLI::App& app) {
       token_command(app),   audit_command(app),
   };
   for (Command& command : remote_commands(app)) commands.push_back(std::move(command));
-  refuse_empty_values(app);
+  check_values(app);
   return commands;
 }
 

@@ -54,20 +54,44 @@ int bad_url(const Problems& problems) {
   return complain_with("ARMLOOM_URL or --url: " + problems.front().detail, kExitBadInput);
 }
 
-// Sends the request and prints the answer. `target` is without the prefix of the API.
+// Sends the request and returns the answer. If it fails, explains why and returns the exit code.
+// `target` is without the prefix of the API.
+tl::expected<std::string, int> answer_to(const RemoteOptions& options, const char* accept,
+                                         const char* method, const std::string& target,
+                                         std::string body = {}) {
+  const auto server = read_server_url(options.url);
+  if (!server) return tl::unexpected(bad_url(server.error()));
+  auto response =
+      fetch(*server, {method, kApiPrefix + target, options.token, accept, std::move(body)});
+  if (!response) return tl::unexpected(unreachable(response.error()));
+  if (response->status < 300) return std::move(response->body);
+  if (options.json) std::cout << response->body << std::flush;
+  return tl::unexpected(explain(*response, options));
+}
+
+int print(const std::string& text) {
+  std::cout << text << std::flush;
+  return std::cout ? kExitDone : kExitNotWritten;
+}
+
+// Sends the request and prints the answer.
 int send(const RemoteOptions& options, const char* method, const std::string& target,
          std::string body = {}) {
-  const auto server = read_server_url(options.url);
-  if (!server) return bad_url(server.error());
-  const auto response = fetch(*server, {method, kApiPrefix + target, options.token,
-                                        options.json ? kJson : kText, std::move(body)});
-  if (!response) return unreachable(response.error());
-  if (response->status >= 300) {
-    if (options.json) std::cout << response->body << std::flush;
-    return explain(*response, options);
-  }
-  std::cout << response->body << std::flush;
-  return std::cout ? kExitDone : kExitNotWritten;
+  const auto answer =
+      answer_to(options, options.json ? kJson : kText, method, target, std::move(body));
+  return answer ? print(*answer) : answer.error();
+}
+
+// Resumes all arms. An arm that is not resumed is an error, as if it were named.
+int resume_all(const RemoteOptions& options) {
+  const auto answer = answer_to(options, kJson, "POST", "/resume");
+  if (!answer) return answer.error();
+  const auto resumed = Schema::parse(*answer, nullptr, false);
+  const bool is_partial = resumed.is_object() && resumed.contains("not_resumed");
+  const std::string text = resumed.is_object() ? stopped_text(resumed, 0.0) : *answer;
+  if (is_partial && options.json) std::cout << *answer << std::flush;
+  if (is_partial) return complain_with(text.substr(0, text.find('\n')), kExitBadInput);
+  return print(options.json ? *answer : text);
 }
 
 // Sends a command to each of the arms, or to all.
@@ -104,6 +128,7 @@ int stop_remote_arms(const ArmsOptions& options) {
                       "/stop?category=" + url_segment(options.category));
 }
 int resume_remote_arms(const ArmsOptions& options) {
+  if (options.arms.empty()) return resume_all(options.server);
   return send_to_arms(options.server, options.arms, "POST", "/resume");
 }
 

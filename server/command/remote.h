@@ -35,7 +35,8 @@ struct ArmsOptions {
   std::vector<std::string> arms;  // default: all
   std::string category = "2";     // of a stop; the server stops, and refuses a bad one
 };
-// Stop or resume each of the arms, even if an earlier request fails.
+// Stop or resume each of the arms, even if an earlier request fails. Exit 2 if an arm is not
+// resumed.
 int stop_remote_arms(const ArmsOptions& options);
 int resume_remote_arms(const ArmsOptions& options);
 

@@ -79,7 +79,8 @@ Command speed_command(CLI::App& app) {
       "set or print the speed override of a running server (not the time of a simulation)");
   command->add_option("override", options->share,
                       "largest share of the planned speed: 0, or 0.001 to 1 (default: print it)");
-  command->add_option("--arm", options->arms, "arms to set (default: the cell)");
+  command->add_option("arms,--arm", options->arms,
+                      "arms to set, or with --arm also to print (default: the cell)");
   add_server(*command, options->server);
   return {command, [options] { return speed_of_remote_arms(*options); }};
 }

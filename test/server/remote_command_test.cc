@@ -46,7 +46,7 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
   const test::ServeProcess server({"--cell", test::kCell}, log());
   const std::uint16_t port = server.port();
   EXPECT_EQ(ask(port, "speed 0.5").out, "speed override of the cell: 50 %\n");
-  EXPECT_EQ(ask(port, "speed 0.25 --arm left").out,
+  EXPECT_EQ(ask(port, "speed 0.25 left").out,
             "speed override of arm left: 25 %; with the cell's: 12.5 %\n");
   EXPECT_EQ(ask(port, "speed").out, "speed override of the cell: 50 %\n");
   EXPECT_EQ(json::parse(ask(port, "speed --arm right --json").out)["effective_speed_override"],
@@ -56,6 +56,31 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
   EXPECT_NE(refused.err.find("/speed_override: a speed override is 0, or from 0.001 to 1"),
             std::string::npos)
       << refused.err;
+  for (const std::string typed : {"nan", "inf", "0,5", "left"}) {
+    const auto outcome = ask(port, "speed " + typed);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find(typed + " is not a number"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(RemoteCommand, ExitsWithTwoIfAnArmIsNotResumed) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  ASSERT_EQ(ask(port, "faults add left cut").exit_code, 0);
+  const auto is_lost = [port] {
+    return test::request(port, "GET", "/api/v1/arms/left").json()["link"] == "lost";
+  };
+  for (int i = 0; i < 10'000 && !is_lost(); ++i) {
+  }
+  for (const std::string arms : {"", " left", " right left"}) {
+    const auto outcome = ask(port, "resume" + arms);
+    EXPECT_EQ(outcome.exit_code, 2) << arms;
+    EXPECT_NE(outcome.err.find("left"), std::string::npos) << outcome.err;
+  }
+  const auto all = ask(port, "resume --json");
+  EXPECT_EQ(all.exit_code, 2);
+  EXPECT_EQ(json::parse(all.out)["not_resumed"], json({"left"}));
+  EXPECT_EQ(ask(port, "resume right").exit_code, 0);
 }
 
 TEST_F(RemoteCommand, AddsListsAndRemovesFaults) {
