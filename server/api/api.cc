@@ -9,6 +9,17 @@
 namespace armloom {
 namespace {
 
+Present present(const Status& status, const Cell& cell) {
+  Present now{to_seconds(status.time), {}};
+  for (std::uint32_t a = 0; a < status.arms.size(); ++a) {
+    const ArmStatus& arm = status.arms[a];
+    const bool has_connected = arm.link != ArmLink::State::connecting;
+    if (has_connected && arm.link != ArmLink::State::lost) continue;
+    now.unlinked.push_back({cell.arm(ArmId{a}).name, has_connected, arm.link_detail});
+  }
+  return now;
+}
+
 Problems query_faults(const Target& target, const std::vector<std::string>& parameters) {
   Problems faults;
   if (auto fault = query_problem(target, parameters)) faults.push_back(std::move(*fault));
@@ -18,12 +29,12 @@ Problems query_faults(const Target& target, const std::vector<std::string>& para
 
 }  // namespace
 
-// Adds the answer's text for people, which counts times from the present cell time.
+// Adds the answer's text for people.
 Respond Api::with_text(const Route& route, Respond respond) const {
   return [this, as_text = route.as_text, respond = std::move(respond)](Response response) {
     if (response.status < 300) {
-      response.as_text = [as_text, now_s = to_seconds(parts_.loop.board().read().time)](
-                             std::string_view json) { return as_text(Schema::parse(json), now_s); };
+      response.as_text = [as_text, now = present(parts_.loop.board().read(), *parts_.cell)](
+                             std::string_view json) { return as_text(Schema::parse(json), now); };
     }
     respond(std::move(response));
   };

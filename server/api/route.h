@@ -9,6 +9,7 @@
 #include "server/api/parts.h"
 #include "server/api/recording_files.h"
 #include "server/http/router.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 
@@ -66,7 +67,7 @@ struct Route {
   std::optional<Role> role = Role::viewer;  // nullopt if no token is required
   bool is_stop = false;                     // stops arms; see Rights
   // Returns the answer as text for people; null if it has none. See server/messages/plain_text.h.
-  std::string (*as_text)(const Schema& answer, double now_s) = nullptr;
+  std::string (*as_text)(const Schema& answer, const Present& now) = nullptr;
   void (*run)(Call call);  // not served by the router if null
 
   [[nodiscard]] bool answers_json() const;

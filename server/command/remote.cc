@@ -88,7 +88,7 @@ int resume_all(const RemoteOptions& options) {
   if (!answer) return answer.error();
   const auto resumed = Schema::parse(*answer, nullptr, false);
   const bool is_partial = resumed.is_object() && resumed.contains("not_resumed");
-  const std::string text = resumed.is_object() ? stopped_text(resumed, 0.0) : *answer;
+  const std::string text = resumed.is_object() ? stopped_text(resumed, {}) : *answer;
   if (is_partial && options.json) std::cout << *answer << std::flush;
   if (is_partial) return complain_with(text.substr(0, text.find('\n')), kExitBadInput);
   return print(options.json ? *answer : text);
