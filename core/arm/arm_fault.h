@@ -64,6 +64,8 @@ class FaultTarget {
   virtual void inject(std::uint64_t id, ArmFault fault) = 0;
   // Returns false if there is no such fault.
   virtual bool remove(std::uint64_t id) = 0;
+  // Returns the faults by id, except those that were removed or used up.
+  [[nodiscard]] virtual std::map<std::uint64_t, ArmFault> faults() const = 0;
 };
 
 // Faults by id.
@@ -72,6 +74,7 @@ class FaultList {
   void add(std::uint64_t id, const ArmFault& fault) { faults_.insert_or_assign(id, fault); }
   bool remove(std::uint64_t id) { return faults_.erase(id) > 0; }
   [[nodiscard]] bool empty() const { return faults_.empty(); }
+  [[nodiscard]] const std::map<std::uint64_t, ArmFault>& all() const { return faults_; }
   // Returns the first active fault of the kind; null if there is none.
   [[nodiscard]] const ArmFault* active(ArmFault::Kind kind, TimePoint now) const {
     for (const auto& [id, fault] : faults_) {

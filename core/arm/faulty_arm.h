@@ -21,6 +21,7 @@ class FaultyArm final : public ArmController, public FaultTarget {
 
   void inject(std::uint64_t id, ArmFault fault) override;
   bool remove(std::uint64_t id) override;
+  [[nodiscard]] std::map<std::uint64_t, ArmFault> faults() const override { return faults_.all(); }
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return inner_->joints(); }
   void send(const ArmCommand& command) override;

@@ -20,6 +20,12 @@ void FaultyLink::inject(std::uint64_t id, ArmFault fault) {
 
 bool FaultyLink::remove(std::uint64_t id) { return faults_.remove(id) || arm_->remove(id); }
 
+std::map<std::uint64_t, ArmFault> FaultyLink::faults() const {
+  auto all = arm_->faults();
+  all.insert(faults_.all().begin(), faults_.all().end());
+  return all;
+}
+
 // In [0, 1). The same on every platform, unlike std::uniform_real_distribution.
 double FaultyLink::uniform() { return static_cast<double>(random_() >> 11U) * 0x1.0p-53; }
 

@@ -26,6 +26,7 @@ class FaultyLink final : public ArmController, public FaultTarget {
 
   void inject(std::uint64_t id, ArmFault fault) override;
   bool remove(std::uint64_t id) override;
+  [[nodiscard]] std::map<std::uint64_t, ArmFault> faults() const override;
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return arm_->joints(); }
   void send(const ArmCommand& command) override;

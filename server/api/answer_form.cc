@@ -96,12 +96,11 @@ void bring_into(const Form& form, Response& response) {
 
 }  // namespace
 
-std::optional<Refusal> bad_pretty(const Target& target) {
+std::optional<Problem> bad_pretty(const Target& target) {
   const auto value = target.parameter(kPretty);
   if (!value || value->empty() || *value == "0" || *value == "1") return std::nullopt;
-  return Refusal{400, "bad-parameter",
-                 "pretty must be 1, 0 or without a value, found \"" + *value + "\"", "?pretty",
-                 value};
+  return Problem{ProblemKind::malformed, "bad-parameter", "?pretty",
+                 "pretty must be 1, 0 or without a value, found \"" + *value + "\"", *value};
 }
 
 Respond in_asked_form(const Request& request, Respond respond, RunTask aside, RunTask post) {

@@ -10,7 +10,7 @@ namespace armloom {
 inline constexpr const char* kPretty = "pretty";
 
 // Returns a 400 if `pretty` has a value other than 1, 0 or none.
-[[nodiscard]] std::optional<Refusal> bad_pretty(const Target& target);
+[[nodiscard]] std::optional<Problem> bad_pretty(const Target& target);
 
 // Returns a function that brings JSON answers into the form that the request asks for, and then
 // passes them to `respond`:

@@ -7,13 +7,34 @@
 #include "server/api/route.h"
 
 namespace armloom {
+namespace {
 
-// Adds the answer's text for people, which counts times from the present cell time.
+Present present(const Status& status, const Cell& cell) {
+  Present now{to_seconds(status.time), {}};
+  for (std::uint32_t a = 0; a < status.arms.size(); ++a) {
+    const ArmStatus& arm = status.arms[a];
+    const bool has_connected = arm.link != ArmLink::State::connecting;
+    if (has_connected && arm.link != ArmLink::State::lost) continue;
+    now.unlinked.push_back({cell.arm(ArmId{a}).name, has_connected, arm.link_detail});
+  }
+  return now;
+}
+
+Problems query_faults(const Target& target, const std::vector<std::string>& parameters) {
+  Problems faults;
+  if (auto fault = query_problem(target, parameters)) faults.push_back(std::move(*fault));
+  if (auto fault = bad_pretty(target)) faults.push_back(std::move(*fault));
+  return faults;
+}
+
+}  // namespace
+
+// Adds the answer's text for people.
 Respond Api::with_text(const Route& route, Respond respond) const {
   return [this, as_text = route.as_text, respond = std::move(respond)](Response response) {
     if (response.status < 300) {
-      response.as_text = [as_text, now_s = to_seconds(parts_.loop.board().read().time)](
-                             std::string_view json) { return as_text(Schema::parse(json), now_s); };
+      response.as_text = [as_text, now = present(parts_.loop.board().read(), *parts_.cell)](
+                             std::string_view json) { return as_text(Schema::parse(json), now); };
     }
     respond(std::move(response));
   };
@@ -29,13 +50,15 @@ void Api::add_routes(Router& router) {
     if (route.answers_json()) parameters.emplace_back(kPretty);
     router.add(
         route.method, route.path, route.rights(),
-        [this, &route](const Request& request, const Router::Arguments& arguments,
-                       Respond respond) {
-          if (const auto bad = bad_pretty(request.target)) return respond(refusal_response(*bad));
+        [this, &route, parameters](const Request& request, const Router::Arguments& arguments,
+                                   Respond respond) {
+          auto faults = query_faults(request.target, parameters);
+          if (!route.is_stop && !faults.empty()) return respond(problem_response(faults));
           if (route.as_text != nullptr) respond = with_text(route, std::move(respond));
-          route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});
+          route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(faults),
+                         std::move(respond)});
         },
-        std::move(parameters));
+        parameters);
   }
 }
 

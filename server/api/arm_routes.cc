@@ -44,27 +44,44 @@ const QueryFormat<StopQuery>& stop_query() {
       ProblemKind::malformed);
   return format;
 }
-// Returns the stop category. A request with a wrong category still stops, with category 2; it is
-// then answered with the problem.
-std::pair<StopCategory, Problems> stop_category(const Call& call) {
-  auto query = stop_query().read(call.request.target);
-  if (query) return {static_cast<StopCategory>(query->category), {}};
-  query.error().front().detail += ". The arms were stopped with category 2";
-  return {StopCategory::brake, query.error()};
+// How to stop. A faulty request still stops, with category 2; it is then answered with `faults`.
+struct StopOrder {
+  StopCategory category = StopCategory::brake;
+  Problems faults;
+};
+// `who`: the arms, as the subject of a sentence.
+StopOrder stop_order(const Call& call, const std::string& who) {
+  StopOrder order{.faults = call.query_faults};
+  const auto query = stop_query().read(call.request.target);
+  if (!query) std::ranges::copy(query.error(), std::back_inserter(order.faults));
+  if (call.request.has_body) {
+    order.faults.push_back({ProblemKind::malformed,
+                            "unexpected-body",
+                            "request body",
+                            "a stop has no body: remove it; the stop category is a query "
+                            "parameter, for example ?category=0",
+                            {}});
+  }
+  if (order.faults.empty()) {
+    order.category = static_cast<StopCategory>(query->category);
+  } else {
+    order.faults.front().detail += ". " + who + " stopped with category 2";
+  }
+  return order;
 }
 
 void stop_arm(Call call) {
   const auto arm = named_arm(call);
   if (!arm) return;
-  const auto [category, problems] = stop_category(call);
+  const StopOrder order = stop_order(call, "Arm " + call.arguments.front() + " was");
   ask_urgently(
       call.parts,
-      [arm = *arm, category = category](Executive& executive) {
+      [arm = *arm, category = order.category](Executive& executive) {
         executive.stop({arm}, "operator", category);
         return executive.arms()[arm.index()];
       },
-      [respond = call.respond, problems = problems](const ArmView& view) {
-        respond(problems.empty() ? answer(202, arm_format(), view) : problem_response(problems));
+      [respond = call.respond, faults = order.faults](const ArmView& view) {
+        respond(faults.empty() ? answer(202, arm_format(), view) : problem_response(faults));
       });
 }
 // While the store refuses writes, answers 503 and returns true: nothing may be resumed then.
@@ -98,16 +115,16 @@ void resume_arm(Call call) {
 
 void stop_all(Call call) {
   const auto asked = std::chrono::steady_clock::now();
-  const auto [category, problems] = stop_category(call);
+  const StopOrder order = stop_order(call, "All arms were");
   ask_urgently(
       call.parts,
-      [&parts = call.parts, asked, category = category](Executive& executive) {
+      [&parts = call.parts, asked, category = order.category](Executive& executive) {
         stop_all(executive, "operator", category);
         parts.metrics.stop_taken(std::chrono::steady_clock::now() - asked);
-        return Stopped{.stopped = true};
+        return Stopped{.stopped = true, .category = static_cast<int>(category)};
       },
-      [respond = call.respond, problems = problems](const Stopped& now) {
-        respond(problems.empty() ? answer(202, stopped_format(), now) : problem_response(problems));
+      [respond = call.respond, faults = order.faults](const Stopped& now) {
+        respond(faults.empty() ? answer(202, stopped_format(), now) : problem_response(faults));
       });
 }
 void resume_all(Call call) {
@@ -219,11 +236,20 @@ Route command(const char* path, const char* id, const char* summary) {
 }  // namespace
 
 std::vector<Route> arm_routes() {
+  const std::string as_category =
+      "as its category says (2 and 1: on the path; 0: each joint brakes by itself, drives off, and "
+      "a moving arm leaves its path)";
+  const char* const faulty_stop =
+      "A faulty request (an unknown or repeated parameter, a bad value, a body) is answered 400, "
+      "and "
+      "stops with category 2.";
   Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
-  stop_one.outcomes = {outcome(202, "The arm brakes on its path and stays stopped", arm_format())};
+  stop_one.outcomes = {
+      outcome(202, "The arm stops " + as_category + ", and stays stopped", arm_format())};
   stop_one.refuses = {404};
   stop_one.parameters = stop_query().parameters();
-  stop_one.is_never_limited = true;
+  stop_one.text = faulty_stop;
+  stop_one.is_stop = true;
   stop_one.as_text = arm_text;
   stop_one.run = stop_arm;
   Route resume_one = command("/arms/{name}/resume", "resumeArm", "Resume one arm");
@@ -235,9 +261,10 @@ std::vector<Route> arm_routes() {
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");
   stop.outcomes = {
-      outcome(202, "All arms brake on their paths and stay stopped", stopped_format())};
+      outcome(202, "All arms stop " + as_category + ", and stay stopped", stopped_format())};
   stop.parameters = stop_query().parameters();
-  stop.is_never_limited = true;
+  stop.text = faulty_stop;
+  stop.is_stop = true;
   stop.as_text = stopped_text;
   stop.run = stop_all;
   Route resume = command("/resume", "resumeAll", "Resume all arms");

@@ -13,6 +13,7 @@
 #include "core/executive/real_time_loop.h"
 #include "core/model/cell.h"
 #include "server/api/answers.h"
+#include "server/api/fault_targets.h"
 #include "server/api/guard.h"
 #include "server/codec/wall_clock.h"
 #include "server/codec/yaml_text.h"
@@ -55,6 +56,7 @@ struct ApiParts {
   ClientLimits& limits;
   Comparison& comparison;
   Control& control;
+  const FaultTargets& faults;
   std::optional<std::filesystem::path> data;  // folder of recordings, if any
   std::chrono::milliseconds jog_lease;        // jogs are canceled after this time without renewal
   // A subscriber that waits for a snapshot. All newcomers share the next snapshot.

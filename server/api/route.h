@@ -9,6 +9,7 @@
 #include "server/api/parts.h"
 #include "server/api/recording_files.h"
 #include "server/http/router.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 
@@ -19,6 +20,7 @@ struct Call {
   const RecordingFiles& recordings;
   const Request& request;
   const Router::Arguments& arguments;  // values of {id} and the like in the path
+  Problems query_faults;               // only of a stop: other requests are refused before
   Respond respond;
 };
 
@@ -63,13 +65,13 @@ struct Route {
   std::vector<int> refuses = {};  // in addition to common_refusals()
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;  // nullopt if no token is required
-  bool is_never_limited = false;            // exempt from ClientLimits
+  bool is_stop = false;                     // stops arms; see Rights
   // Returns the answer as text for people; null if it has none. See server/messages/plain_text.h.
-  std::string (*as_text)(const Schema& answer, double now_s) = nullptr;
+  std::string (*as_text)(const Schema& answer, const Present& now) = nullptr;
   void (*run)(Call call);  // not served by the router if null
 
   [[nodiscard]] bool answers_json() const;
-  [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
+  [[nodiscard]] Rights rights() const { return {who, role, is_stop}; }
 };
 
 // The routes of each resource.

@@ -5,6 +5,7 @@
 #include "server/api/route.h"
 #include "server/drivers/remote_controller.h"
 #include "server/messages/fault.h"
+#include "server/messages/plain_text.h"
 
 namespace armloom {
 namespace {
@@ -55,6 +56,17 @@ void post_fault(Call call) {
   read_body(call.parts, call.request, call.respond, read_fault_text, inject);
 }
 
+void list_faults(Call call) {
+  ask(
+      call.parts,
+      [&targets = call.parts.faults](Executive& executive) {
+        return targets.list(executive.now());
+      },
+      [respond = call.respond](const FaultListing& listing) {
+        respond(answer(200, fault_list_format(), listing));
+      });
+}
+
 void delete_fault(Call call) {
   const std::string& name = call.arguments.front();
   std::uint64_t id = 0;
@@ -84,6 +96,15 @@ std::vector<Route> simulation_routes() {
        .who = Who::commander,
        .role = Role::operate,
        .run = put_speed},
+      {.method = "GET",
+       .path = api_path("/sim/faults"),
+       .id = "listFaults",
+       .tag = "simulation",
+       .summary = "List the faults of simulated arms",
+       .outcomes = {outcome(200, "All faults that are not over, also those that have not begun",
+                            fault_list_format())},
+       .as_text = fault_list_text,
+       .run = list_faults},
       {.method = "POST",
        .path = api_path("/sim/faults"),
        .id = "injectFault",
@@ -95,6 +116,7 @@ std::vector<Route> simulation_routes() {
        .refuses = {422},
        .who = Who::commander,
        .role = Role::operate,
+       .as_text = fault_text,
        .run = post_fault},
       {.method = "DELETE",
        .path = api_path("/sim/faults/{id}"),

@@ -87,6 +87,14 @@ int run_arm(const ArmOptions& options) {
                          {ProblemKind::invalid, "unknown-robot", "",
                           "the cell has no such robot; it has: " + known, options.robot});
   }
+  if (robot->controller.type != "remote") {
+    return refuse_option(
+        "--robot", {ProblemKind::invalid, "simulated-robot", "",
+                    "the server simulates this robot itself and never connects to a process: set "
+                    "its controller in the cell file to {\"type\": \"remote\", \"endpoint\": "
+                    "\"unix:PATH\"}",
+                    options.robot});
+  }
   if (options.hello) {
     std::cout << line_of(ServerMessage(hello_for(*cell, *robot, random_stream()))) << std::endl;
     return kExitDone;

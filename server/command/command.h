@@ -48,7 +48,8 @@ struct ServeOptions {
 int serve(const ServeOptions& options);
 
 // Runs the simulated arms of one robot as a process of their own, until SIGINT or SIGTERM.
-// Precondition: either `listen` or `hello` is given.
+// Refuses a robot that the cell file does not give to a process of its own. Precondition: either
+// `listen` or `hello` is given.
 struct ArmOptions {
   std::string cell_file;
   std::string robot;

@@ -1,13 +1,14 @@
 #include "server/command/command_line.h"
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/base/enumeration.h"
 #include "core/executive/plan_task.h"
 #include "server/command/command.h"
-#include "server/command/remote.h"
 
 namespace armloom {
 namespace {
@@ -248,98 +249,6 @@ Command replay_command(CLI::App& app) {
   return {command, [options] { return replay_recording(*options); }};
 }
 
-void add_server(CLI::App& command, RemoteOptions& options) {
-  command.add_option("--url", options.url, "address of the server")
-      ->envname("ARMLOOM_URL")
-      ->capture_default_str();
-  command
-      .add_option("--token", options.token,
-                  "access token; prefer ARMLOOM_TOKEN, because other users see command lines")
-      ->envname("ARMLOOM_TOKEN");
-  command.add_flag("--json", options.json, "print the server's answer as it is");
-}
-
-std::vector<std::string> job_states();
-
-Command jobs_command(CLI::App& app) {
-  const auto options = std::make_shared<JobsOptions>();
-  CLI::App* command = app.add_subcommand("jobs", "list the jobs of a running server, newest first");
-  add_server(*command, options->server);
-  command->add_option("--state", options->state, "list only jobs in this state")
-      ->check(CLI::IsMember(job_states()));
-  command->add_option("--arm", options->arm, "list only jobs that move this arm");
-  command->add_option("--limit", options->limit, "number of jobs")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  return {command, [options] { return list_remote_jobs(*options); }};
-}
-
-Command why_command(CLI::App& app) {
-  const auto options = std::make_shared<OneJobOptions>();
-  CLI::App* command = app.add_subcommand(
-      "why", "explain a job of a running server: state, what it waits for, how it will end");
-  command->add_option("job", options->job, "id of the job")->required();
-  add_server(*command, options->server);
-  return {command, [options] { return explain_job(*options); }};
-}
-
-Command cancel_command(CLI::App& app) {
-  const auto options = std::make_shared<OneJobOptions>();
-  CLI::App* command = app.add_subcommand("cancel", "cancel a job of a running server");
-  command->add_option("job", options->job, "id of the job")->required();
-  add_server(*command, options->server);
-  return {command, [options] { return cancel_remote_job(*options); }};
-}
-
-Command resume_command(CLI::App& app) {
-  const auto options = std::make_shared<ArmsOptions>();
-  CLI::App* command = app.add_subcommand("resume", "resume stopped arms of a running server");
-  command->add_option("arms", options->arms, "arms to resume (default: all)");
-  add_server(*command, options->server);
-  return {command, [options] { return resume_remote_arms(*options); }};
-}
-
-Command stop_command(CLI::App& app) {
-  const auto options = std::make_shared<ArmsOptions>();
-  CLI::App* command = app.add_subcommand(
-      "stop", "stop arms of a running server (an operational stop, no emergency stop)");
-  command->add_option("arms", options->arms, "arms to stop (default: all)");
-  command
-      ->add_option(
-          "--category", options->category,
-          "2: brake, then hold (default); 1: brake, then drives off; 0: drives off at once, "
-          "and the arms leave their paths")
-      ->check(CLI::Range(0, 2));
-  add_server(*command, options->server);
-  return {command, [options] { return stop_remote_arms(*options); }};
-}
-
-Command speed_command(CLI::App& app) {
-  const auto options = std::make_shared<SpeedOptions>();
-  CLI::App* command = app.add_subcommand(
-      "speed",
-      "set or print the speed override of a running server (not the time of a simulation)");
-  command->add_option("override", options->share,
-                      "largest share of the planned speed: 0, or 0.001 to 1 (default: print it)");
-  command->add_option("--arm", options->arms, "arms to set (default: the cell)");
-  add_server(*command, options->server);
-  return {command, [options] { return speed_of_remote_arms(*options); }};
-}
-
-Command events_command(CLI::App& app) {
-  const auto options = std::make_shared<EventsOptions>();
-  CLI::App* command = app.add_subcommand("events", "print the events of a running server");
-  add_server(*command, options->server);
-  command->add_option("--count", options->count, "end after this many events (default: never)");
-  return {command, [options] { return print_events(*options); }};
-}
-
-std::vector<std::string> job_states() {
-  std::vector<std::string> names;
-  for (const JobState state : kValues<JobState>) names.emplace_back(to_string(state));
-  return names;
-}
-
 Command history_command(CLI::App& app) {
   const auto options = std::make_shared<HistoryOptions>();
   CLI::App* command =
@@ -394,32 +303,48 @@ Command audit_command(CLI::App& app) {
   return {command, [options] { return audit_recording(*options); }};
 }
 
-// Refuses empty option values, which come from unset shell variables. For example, `--tokens ""`
-// would admit every request.
-void refuse_empty_values(CLI::App& command) {
+// Checks a number, because the parser would accept nan and inf.
+std::string not_a_number(const std::string& text) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, ec] = std::from_chars(text.data(), end, number);
+  if (ec == std::errc{} && stop == end && std::isfinite(number)) return {};
+  return text + " is not a number";
+}
+
+// Refuses numbers that are none, and empty values, which come from unset shell variables: `--tokens
+// ""` would admit every request.
+void check_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(not_a_number);
     if (option->get_items_expected_max() == 0) continue;  // a flag
     if (option->get_type_name() == "PREFIX") continue;    // one of several may be empty
+    if (option->get_type_name() == "CATEGORY") continue;  // the server stops, then refuses it
     option->check([](const std::string& value) {
       return value.empty() ? std::string("is empty: give it a value or leave the option out")
                            : std::string();
     });
   }
-  for (CLI::App* below : command.get_subcommands({})) refuse_empty_values(*below);
+  for (CLI::App* below : command.get_subcommands({})) check_values(*below);
 }
 
 }  // namespace
+
+std::vector<std::string> job_states() {
+  std::vector<std::string> names;
+  for (const JobState state : kValues<JobState>) names.emplace_back(to_string(state));
+  return names;
+}
 
 std::vector<Command> add_commands(CLI::App& app) {
   std::vector<Command> commands{
       serve_command(app),   validate_command(app), schema_command(app), import_command(app),
       check_command(app),   plan_command(app),     reach_command(app),  simulate_command(app),
       compare_command(app), arm_command(app),      replay_command(app), history_command(app),
-      token_command(app),   audit_command(app),    jobs_command(app),   why_command(app),
-      stop_command(app),    resume_command(app),   speed_command(app),  cancel_command(app),
-      events_command(app),
+      token_command(app),   audit_command(app),
   };
-  refuse_empty_values(app);
+  for (Command& command : remote_commands(app)) commands.push_back(std::move(command));
+  check_values(app);
   return commands;
 }
 

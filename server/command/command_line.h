@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace armloom {
@@ -13,6 +14,9 @@ struct Command {
 };
 
 [[nodiscard]] Command serve_command(CLI::App& app);
+[[nodiscard]] std::vector<Command> remote_commands(CLI::App& app);  // for a running server
 [[nodiscard]] std::vector<Command> add_commands(CLI::App& app);
+
+[[nodiscard]] std::vector<std::string> job_states();
 
 }  // namespace armloom

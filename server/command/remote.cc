@@ -54,20 +54,44 @@ int bad_url(const Problems& problems) {
   return complain_with("ARMLOOM_URL or --url: " + problems.front().detail, kExitBadInput);
 }
 
-// Sends the request and prints the answer. `target` is without the prefix of the API.
+// Sends the request and returns the answer. If it fails, explains why and returns the exit code.
+// `target` is without the prefix of the API.
+tl::expected<std::string, int> answer_to(const RemoteOptions& options, const char* accept,
+                                         const char* method, const std::string& target,
+                                         std::string body = {}) {
+  const auto server = read_server_url(options.url);
+  if (!server) return tl::unexpected(bad_url(server.error()));
+  auto response =
+      fetch(*server, {method, kApiPrefix + target, options.token, accept, std::move(body)});
+  if (!response) return tl::unexpected(unreachable(response.error()));
+  if (response->status < 300) return std::move(response->body);
+  if (options.json) std::cout << response->body << std::flush;
+  return tl::unexpected(explain(*response, options));
+}
+
+int print(const std::string& text) {
+  std::cout << text << std::flush;
+  return std::cout ? kExitDone : kExitNotWritten;
+}
+
+// Sends the request and prints the answer.
 int send(const RemoteOptions& options, const char* method, const std::string& target,
          std::string body = {}) {
-  const auto server = read_server_url(options.url);
-  if (!server) return bad_url(server.error());
-  const auto response = fetch(*server, {method, kApiPrefix + target, options.token,
-                                        options.json ? kJson : kText, std::move(body)});
-  if (!response) return unreachable(response.error());
-  if (response->status >= 300) {
-    if (options.json) std::cout << response->body << std::flush;
-    return explain(*response, options);
-  }
-  std::cout << response->body << std::flush;
-  return std::cout ? kExitDone : kExitNotWritten;
+  const auto answer =
+      answer_to(options, options.json ? kJson : kText, method, target, std::move(body));
+  return answer ? print(*answer) : answer.error();
+}
+
+// Resumes all arms. An arm that is not resumed is an error, as if it were named.
+int resume_all(const RemoteOptions& options) {
+  const auto answer = answer_to(options, kJson, "POST", "/resume");
+  if (!answer) return answer.error();
+  const auto resumed = Schema::parse(*answer, nullptr, false);
+  const bool is_partial = resumed.is_object() && resumed.contains("not_resumed");
+  const std::string text = resumed.is_object() ? stopped_text(resumed, {}) : *answer;
+  if (is_partial && options.json) std::cout << *answer << std::flush;
+  if (is_partial) return complain_with(text.substr(0, text.find('\n')), kExitBadInput);
+  return print(options.json ? *answer : text);
 }
 
 // Sends a command to each of the arms, or to all.
@@ -101,9 +125,10 @@ int cancel_remote_job(const OneJobOptions& options) {
 
 int stop_remote_arms(const ArmsOptions& options) {
   return send_to_arms(options.server, options.arms, "POST",
-                      "/stop?category=" + std::to_string(options.category));
+                      "/stop?category=" + url_segment(options.category));
 }
 int resume_remote_arms(const ArmsOptions& options) {
+  if (options.arms.empty()) return resume_all(options.server);
   return send_to_arms(options.server, options.arms, "POST", "/resume");
 }
 
@@ -111,6 +136,24 @@ int speed_of_remote_arms(const SpeedOptions& options) {
   if (!options.share) return send_to_arms(options.server, options.arms, "GET", "/speed");
   const Schema body{{"speed_override", *options.share}};
   return send_to_arms(options.server, options.arms, "PUT", "/speed", body.dump());
+}
+
+int change_remote_faults(const FaultsOptions& options) {
+  const std::string faults = "/sim/faults";
+  if (options.what == FaultsOptions::What::list) return send(options.server, "GET", faults);
+  if (options.what == FaultsOptions::What::remove) {
+    int code = kExitDone;
+    for (const std::string& id : options.ids) {
+      const int one = send(options.server, "DELETE", faults + "/" + url_segment(id));
+      if (code == kExitDone) code = one;
+    }
+    return code;
+  }
+  Schema body{{"arm", options.arm}, {"kind", options.kind}};
+  if (options.value) body["value"] = *options.value;
+  if (options.at_s) body["at_s"] = *options.at_s;
+  if (options.for_s) body["for_s"] = *options.for_s;
+  return send(options.server, "POST", faults, body.dump());
 }
 
 int print_events(const EventsOptions& options) {

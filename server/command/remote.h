@@ -33,9 +33,10 @@ int cancel_remote_job(const OneJobOptions& options);
 struct ArmsOptions {
   RemoteOptions server;
   std::vector<std::string> arms;  // default: all
-  int category = 2;               // of a stop
+  std::string category = "2";     // of a stop; the server stops, and refuses a bad one
 };
-// Stop or resume each of the arms, even if an earlier request fails.
+// Stop or resume each of the arms, even if an earlier request fails. Exit 2 if an arm is not
+// resumed.
 int stop_remote_arms(const ArmsOptions& options);
 int resume_remote_arms(const ArmsOptions& options);
 
@@ -46,6 +47,22 @@ struct SpeedOptions {
 };
 // Sets or prints the speed override of the cell, or of each of the arms.
 int speed_of_remote_arms(const SpeedOptions& options);
+
+struct FaultsOptions {
+  enum class What { list, add, remove };
+  RemoteOptions server;
+  What what = What::list;
+  // Of the fault to add; the server gives the defaults.
+  std::string arm;
+  std::string kind;
+  std::optional<double> value;
+  std::optional<double> at_s;
+  std::optional<double> for_s;
+  std::vector<std::string> ids;  // to remove
+};
+// Lists or adds faults of simulated arms, or removes each of the faults, even if an earlier request
+// fails.
+int change_remote_faults(const FaultsOptions& options);
 
 struct EventsOptions {
   RemoteOptions server;

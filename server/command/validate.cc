@@ -85,9 +85,10 @@ void print_cell(const Cell& cell) {
     const Eigen::Vector3d& p = robot.X_WB.translation();
     std::cout << "robot " << robot.name << " (prefix \"" << robot.prefix << "\") at "
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
-              << no_minus_zero(p.z()) << "; controller " << robot.controller.type << ", lag "
-              << to_seconds(robot.controller.lag) << " s, noise " << robot.controller.noise_rad
-              << " rad\n";
+              << no_minus_zero(p.z()) << "; controller " << robot.controller.type
+              << (robot.controller.endpoint.empty() ? "" : " at ") << robot.controller.endpoint
+              << ", lag " << to_seconds(robot.controller.lag) << " s, noise "
+              << robot.controller.noise_rad << " rad\n";
     for (const ArmId arm : robot.arms) print_arm(cell, cell.arm(arm));
   }
   std::cout << "  * a default: velocity " << kDefaultVelocity << ", acceleration "

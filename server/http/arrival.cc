@@ -30,12 +30,6 @@ bool waits_to_be_asked(const RequestParser& parser) {
          !parser.is_done();
 }
 
-// Returns true if the whole body has arrived.
-bool is_all_here(const Connection& connection, const RequestParser& parser) {
-  const auto left = parser.content_length_remaining();
-  return parser.is_done() || (left && connection.buffer.size() >= *left);
-}
-
 }  // namespace
 
 Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
@@ -60,9 +54,9 @@ Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection
   }
   // Copies the header before the body is read, because the parser adds trailers to it.
   RequestHeader header = parser.get().base();
+  request->has_body = !parser.is_done();
   // A stop does not wait for its body.
-  if (site.is_never_limited(*request) && !is_all_here(connection, parser)) {
-    request->body = std::make_shared<const std::string>();
+  if (site.is_stop(*request) && request->has_body) {
     const Delivery delivery{header.version(), false, false};
     co_return Arrived{std::move(*request), std::move(header), delivery,
                       MemoryBudget::Charge(connection.memory)};

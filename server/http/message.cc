@@ -33,9 +33,9 @@ std::optional<std::string> percent_decoded(std::string_view text, bool form) {
   return out;
 }
 
-tl::unexpected<Problems> bad_target(std::string detail, std::string_view found) {
-  return failure(Problem{ProblemKind::malformed, "bad-target", "request target", std::move(detail),
-                         std::string(found.substr(0, 200))});
+Problem bad_target(std::string detail, std::string_view found) {
+  return Problem{ProblemKind::malformed, "bad-target", "request target", std::move(detail),
+                 std::string(found.substr(0, 200))};
 }
 
 Problem bad_parameter(const std::string& name, const std::string& value, std::string detail) {
@@ -46,22 +46,22 @@ Problem bad_parameter(const std::string& name, const std::string& value, std::st
 
 Result<Target> parse_target(std::string_view text) {
   if (text.empty() || text.front() != '/') {
-    return bad_target("the request target must be an absolute path", text);
+    return failure(bad_target("the request target must be an absolute path", text));
   }
   if (text.find('#') != text.npos) {
-    return bad_target("a request target has no fragment", text);
+    return failure(bad_target("a request target has no fragment", text));
   }
   Target target;
   const std::size_t mark = text.find('?');
   const std::string_view raw_path = text.substr(0, mark);
   const auto path = percent_decoded(raw_path, false);
-  if (!path) return bad_target("a percent escape in the path is broken", raw_path);
+  if (!path) return failure(bad_target("a percent escape in the path is broken", raw_path));
   std::size_t slashes_raw = 0;
   std::size_t slashes = 0;
   for (const char c : raw_path) slashes_raw += c == '/' ? 1U : 0U;
   for (const char c : *path) slashes += c == '/' ? 1U : 0U;
   if (slashes != slashes_raw || path->find('\\') != path->npos || path->find('\0') != path->npos) {
-    return bad_target("the path contains an encoded slash, a backslash or NUL", raw_path);
+    return failure(bad_target("the path contains an encoded slash, a backslash or NUL", raw_path));
   }
   target.path = *path;
   if (mark == text.npos) return target;
@@ -74,17 +74,20 @@ Result<Target> parse_target(std::string_view text) {
     const auto name = percent_decoded(pair.substr(0, equals), true);
     const auto value =
         equals == pair.npos ? std::string() : percent_decoded(pair.substr(equals + 1), true);
-    if (!name || !value) return bad_target("a percent escape in the query is broken", pair);
-    if (name->empty()) continue;
-    if (!target.query.emplace(*name, *value).second) {
-      return failure(bad_parameter(*name, *value, "the parameter \"" + *name + "\" occurs twice"));
+    std::optional<Problem> fault;
+    if (!name || !value) {
+      fault = bad_target("a percent escape in the query is broken: send % as %25", pair);
+    } else if (!name->empty() && !target.query.emplace(*name, *value).second) {
+      fault = bad_parameter(*name, *value,
+                            "the parameter \"" + *name + "\" occurs twice: send it once");
     }
+    if (!target.query_fault) target.query_fault = std::move(fault);
   }
   return target;
 }
 
-std::optional<Problem> unknown_parameter(const Target& target,
-                                         const std::vector<std::string>& known) {
+std::optional<Problem> query_problem(const Target& target, const std::vector<std::string>& known) {
+  if (target.query_fault) return target.query_fault;
   for (const auto& [name, value] : target.query) {
     if (std::ranges::find(known, name) != known.end()) continue;
     std::string names;

@@ -20,19 +20,23 @@ namespace armloom {
 struct Target {
   std::string path;  // begins with '/', without NUL, encoded slash or backslash
   std::map<std::string, std::string> query;
+  // The first fault of the query: a broken escape, or a parameter that occurs twice. `query` then
+  // lacks the broken part, and has the first value of the parameter.
+  std::optional<Problem> query_fault = {};
 
   [[nodiscard]] std::optional<std::string> parameter(const std::string& name) const {
     const auto it = query.find(name);
     return it == query.end() ? std::nullopt : std::optional(it->second);
   }
 };
-// Splits and decodes a request target. Problem (malformed): the target is not an absolute path, or
-// has a fragment, a broken or forbidden escape, or a parameter twice.
+// Splits and decodes a request target. Problem (malformed): the target is not an absolute path, has
+// a fragment, or a broken or forbidden escape in the path.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
-// Returns a problem (malformed) that names a query parameter not in `known`, or nullopt.
-[[nodiscard]] std::optional<Problem> unknown_parameter(const Target& target,
-                                                       const std::vector<std::string>& known);
+// Returns the query's fault, or a problem (malformed) that names a parameter not in `known`; else
+// nullopt.
+[[nodiscard]] std::optional<Problem> query_problem(const Target& target,
+                                                   const std::vector<std::string>& known);
 
 // Returns `text` as one path segment, with all but unreserved characters percent-encoded.
 [[nodiscard]] std::string url_segment(std::string_view text);
@@ -68,6 +72,7 @@ struct Request {
   std::optional<std::string> cross_origin = {};     // allowed Origin of another site
   std::optional<Refusal> foreign = {};              // refuses commands (page of another site)
   bool upgrade = false;                             // wants a WebSocket
+  bool has_body = false;                            // as the header announces
   // True once no client waits for the response: it disconnected, or the response took too long.
   std::shared_ptr<std::atomic<bool>> gone = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
@@ -167,9 +172,9 @@ struct Site {
   // Returns a refusal that does not depend on the body, or nullopt if `handle` must answer.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // formats errors of HTTP itself: framing, limits, targets
-  // Returns true if the request is exempt from connection limits and is handled without waiting for
-  // its body.
-  std::function<bool(const Request&)> is_never_limited;
+  // Returns true if the request stops arms. It is exempt from connection limits, and its body is
+  // not read.
+  std::function<bool(const Request&)> is_stop;
   // Graceful shutdown: brings all arms to rest, then calls `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
   std::function<void()> end;  // shutdown: gives every subscription its close reason

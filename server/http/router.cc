@@ -83,16 +83,17 @@ Router::Found Router::find(const Request& request) const {
 std::optional<Response> Router::refusal(const Request& request, const Found& found) const {
   const Rights unrouted{request.method == "GET" ? Who::reader : Who::commander, std::nullopt,
                         false};
-  const auto [who, role, never_limited] = found.route != nullptr ? found.route->rights : unrouted;
+  const auto [who, role, is_stop] = found.route != nullptr ? found.route->rights : unrouted;
   if (who != Who::anyone && request.stranger) return refuse_(*request.stranger);
   if (who == Who::commander && request.foreign) return refuse_(*request.foreign);
   if (role && guard_) {
     if (const auto why = guard_(request, *role)) return refuse_(*why);
   }
-  if (found.route != nullptr) {
-    const auto unknown = unknown_parameter(request.target, found.route->parameters);
-    return unknown ? std::optional(refuse_(refusal_of(400, *unknown))) : std::nullopt;
-  }
+  if (is_stop) return std::nullopt;
+  const auto fault = found.route != nullptr ? query_problem(request.target, found.route->parameters)
+                                            : request.target.query_fault;
+  if (fault) return refuse_(refusal_of(400, *fault));
+  if (found.route != nullptr) return std::nullopt;
   const std::string allow = allowed_at(request.target.path);
   if (allow.empty()) return std::nullopt;
   if (request.method == "OPTIONS") return options_of(request, allow);

@@ -20,14 +20,15 @@ namespace armloom {
 enum class Who { anyone, reader, commander };
 
 // The clients that a route serves, and the role that their token must have. `role` is nullopt if no
-// token is needed.
+// token is needed. A route that stops arms is exempt from limits, and it gets requests with a bad
+// query: it stops the arms before it reports the fault.
 struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
-  bool is_never_limited = false;
+  bool is_stop = false;
 
   // Returns true if the rate limit applies to the request.
-  [[nodiscard]] bool is_counted() const { return !is_never_limited && who != Who::anyone; }
+  [[nodiscard]] bool is_counted() const { return !is_stop && who != Who::anyone; }
 };
 
 // Maps method and path to a handler. In a pattern, {id} stands for any one non-empty segment:
@@ -40,7 +41,7 @@ class Router {
 
   explicit Router(WriteRefusal refuse) : refuse_(std::move(refuse)) {}
 
-  // `parameters`: allowed query parameters.
+  // `parameters`: allowed query parameters. A stop checks its query itself.
   void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
   // Called for every response of dispatch(), with the method, the route's pattern ("" without a
@@ -63,16 +64,15 @@ class Router {
   // - the refusal of the limit
   // - 403 if Host or Origin is not allowed
   // - the refusal of the guard
-  // - if a route matches: 400 if it does not know a query parameter, else the route's answer
+  // - 400 if the query is broken or has a parameter that the route does not know, except for stops
+  // - if a route matches: the route's answer
   // - if routes with other methods match: 204 with Allow for OPTIONS, else 405 with Allow
   // - the answer of otherwise(), or 404 if it is not set
   void dispatch(const Request& request, Respond respond) const;
   // Returns the response of dispatch() if it does not depend on the body, else nullopt. Does not
   // apply the limit.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
-  [[nodiscard]] bool is_never_limited(const Request& request) const {
-    return is_never_limited(find(request));
-  }
+  [[nodiscard]] bool is_stop(const Request& request) const { return is_stop(find(request)); }
 
  private:
   struct Route {
@@ -88,8 +88,8 @@ class Router {
     Arguments arguments;
   };
   [[nodiscard]] Found find(const Request& request) const;
-  [[nodiscard]] static bool is_never_limited(const Found& found) {
-    return found.route != nullptr && found.route->rights.is_never_limited;
+  [[nodiscard]] static bool is_stop(const Found& found) {
+    return found.route != nullptr && found.route->rights.is_stop;
   }
   [[nodiscard]] static bool is_counted(const Found& found) {
     return found.route == nullptr || found.route->rights.is_counted();

@@ -115,7 +115,7 @@ Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Ref
   Connection connection(std::move(transport), memory);
   if (!co_await connection.stream.shake_hands(kReserveTime)) co_return;
   const Terms terms{{kReserveTime, kReserveTime}, [&](const Request& request) {
-                      return site.is_never_limited(request) ? std::nullopt : std::optional(why);
+                      return site.is_stop(request) ? std::nullopt : std::optional(why);
                     }};
   auto arrived = co_await read_request(connection, site, terms);
   if (!arrived) {

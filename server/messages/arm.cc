@@ -125,6 +125,9 @@ FormatPtr<Stopped> stopped_format() {
       named("Stopped", "",
             object<Stopped>({output_only("stopped", &Stopped::stopped, flag()),
                              output_if(
+                                 "category", [](const Stopped& now) { return now.category; },
+                                 integer(0, 2), "Stop category; only in the answer to a stop"),
+                             output_if(
                                  "not_resumed",
                                  [](const Stopped& now) {
                                    return now.not_resumed.empty() ? std::nullopt

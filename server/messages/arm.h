@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +25,8 @@ struct SpeedShare {
 
 // Answer to POST /stop and /resume.
 struct Stopped {
-  bool stopped;  // every arm
+  bool stopped;                      // every arm
+  std::optional<int> category = {};  // of a stop
   std::vector<std::string> not_resumed = {};
 };
 [[nodiscard]] FormatPtr<Stopped> stopped_format();

@@ -229,6 +229,14 @@ PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> 
   });
 }
 
+PartPtr<FaultView> view_part() {
+  return parts<FaultView>({
+      output_only(
+          "id", [](const FaultView& view) { return std::to_string(view.id); }, text()),
+      inlined(&FaultView::fault, told_members(cell_time(), seconds(kAnyNumber))),
+  });
+}
+
 FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
   using Fault = FaultRequest;
   return object<Fault>({
@@ -282,13 +290,24 @@ Result<std::vector<FaultRequest>> read_faults_text(std::string_view text, const 
 }
 
 FormatPtr<FaultView> fault_format() {
-  using View = FaultView;
+  static const auto format = named("Fault", "", object<FaultView>({view_part()}));
+  return format;
+}
+
+FormatPtr<FaultListing> fault_list_format() {
+  static const auto present =
+      named("PresentFault", "A fault that is not over.",
+            object<FaultView>({
+                view_part(),
+                output_only("remaining_s", &FaultView::remaining, nullable(seconds(kAnyNumber)),
+                            "Time for which the fault will still act; null if it lasts until it is "
+                            "removed (`fault` and `reject`: until it has occurred)"),
+            }));
   static const auto format =
-      named("Fault", "",
-            object<View>({
-                output_only(
-                    "id", [](const View& view) { return std::to_string(view.id); }, text()),
-                inlined(&View::fault, told_members(cell_time(), seconds(kAnyNumber))),
+      named("FaultList", "",
+            object<FaultListing>({
+                output_only("t_s", &FaultListing::now, cell_time(), "Present cell time"),
+                output_only("faults", &FaultListing::faults, list(present), "In order of ids"),
             }));
   return format;
 }

@@ -24,8 +24,15 @@ namespace armloom {
 struct FaultView {
   std::uint64_t id;
   FaultRequest fault;
+  std::optional<Duration> remaining = {};  // only in a FaultListing
 };
 [[nodiscard]] FormatPtr<FaultView> fault_format();
+// Answer to GET /sim/faults: the faults that are not over.
+struct FaultListing {
+  TimePoint now;
+  std::vector<FaultView> faults;
+};
+[[nodiscard]] FormatPtr<FaultListing> fault_list_format();
 // Describes a fault in the input log, whose id is not kept. Values are checked as strictly as in a
 // request.
 [[nodiscard]] FormatPtr<FaultRequest> logged_fault_format();

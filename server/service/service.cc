@@ -83,7 +83,7 @@ class Service::Impl {
     if (auto problems = log_inputs(cell, executive_options, post)) return problems;
     ControllerTypes remote = remote_controllers(stream_);
     if (inputs_) remote = recorded(std::move(remote), *inputs_);
-    remote.merge(simulated_controllers());
+    remote.merge(faults_.watched(simulated_controllers()));
     executive_options.controllers = std::move(remote);
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
@@ -94,11 +94,27 @@ class Service::Impl {
     comparison_ = std::make_unique<Comparison>(cell, post);
     listings_ = std::make_unique<Listings>(post);
     const auto aside = [this](std::function<void()> task) { worker_.post(std::move(task)); };
-    api_ = std::make_unique<Api>(
-        ApiParts{cell,        stream_,          *clock_,       *loop_,        hub_,
-                 states_,     recording_.get(), keeper_.get(), *alerts_,      post,
-                 post_urgent, guard_,           aside,         *listings_,    *metrics_,
-                 limits_,     *comparison_,     control_,      options_.data, options_.jog_lease});
+    api_ = std::make_unique<Api>(ApiParts{cell,
+                                          stream_,
+                                          *clock_,
+                                          *loop_,
+                                          hub_,
+                                          states_,
+                                          recording_.get(),
+                                          keeper_.get(),
+                                          *alerts_,
+                                          post,
+                                          post_urgent,
+                                          guard_,
+                                          aside,
+                                          *listings_,
+                                          *metrics_,
+                                          limits_,
+                                          *comparison_,
+                                          control_,
+                                          faults_,
+                                          options_.data,
+                                          options_.jog_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -119,9 +135,7 @@ class Service::Impl {
       return refused;
     };
     site.refuse = refusal_response;
-    site.is_never_limited = [this](const Request& request) {
-      return router_.is_never_limited(request);
-    };
+    site.is_stop = [this](const Request& request) { return router_.is_stop(request); };
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
     site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere,
                           options_.tls.has_value()};
@@ -272,6 +286,7 @@ class Service::Impl {
   Guard guard_;
   ClientLimits limits_;
   Control control_;
+  FaultTargets faults_;
   const std::string stream_ = random_stream();
   std::optional<WallClock> clock_;
   Hub hub_;

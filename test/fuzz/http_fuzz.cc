@@ -41,7 +41,7 @@ void demand_fit(const Request& request) {
     if (tags) (void)any_tag(*tags, [](std::string_view tag) { return tag.empty(); });
     if (tags) (void)is_tag_list(*tags);
   }
-  (void)unknown_parameter(request.target, {"limit"});
+  (void)query_problem(request.target, {"limit"});
   Response response{200, "text/plain", "x", {{"ETag", "\"x\""}, {"Vary", "Accept"}}};
   answer_conditionally(request, response);
   answer_across_origins(request, response);

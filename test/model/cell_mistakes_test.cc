@@ -93,6 +93,17 @@ void set_endpoint(CellDescription& cell, const char* type, const char* endpoint)
   cell.robots[0].controller.type = type;
   cell.robots[0].controller.endpoint = endpoint;
 }
+// Adds the robot again, with other names and the same endpoint.
+void share_endpoint(CellDescription& cell) {
+  set_endpoint(cell, "remote", "unix:/tmp/twin");
+  RobotDescription other = cell.robots[0];
+  other.name = "other";
+  other.prefix = "o_";
+  for (ArmDescription& arm : other.arms) arm.name = "other_" + arm.name;
+  other.X_WB.translation().x() += 5.0;
+  other.controller.endpoint = "unix:/tmp//twin";
+  cell.robots.push_back(other);
+}
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(
@@ -113,8 +124,10 @@ INSTANTIATE_TEST_SUITE_P(
                     MISTAKE(set_endpoint(cell, "remote", "tcp:10.0.0.7:0"),
                             "/robots/0/controller/endpoint", "cannot connect to port 0"),
                     MISTAKE(set_endpoint(cell, "remote", "tcp:::1:4000"),
-                            "/robots/0/controller/endpoint",
-                            "an IPv6 address stands in brackets")));
+                            "/robots/0/controller/endpoint", "an IPv6 address stands in brackets"),
+                    MISTAKE(share_endpoint(cell), "/robots/1/controller/endpoint",
+                            "the endpoint unix:/tmp//twin is also that of robot twin "
+                            "(/robots/0/controller/endpoint)")));
 
 INSTANTIATE_TEST_SUITE_P(
     Arms, CellMistake,

@@ -313,11 +313,15 @@ test('arms stop and resume', async () => {
     await call(202, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'left'}});
     await call(404, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'nobody'}});
   }
-  assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true});
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`), {stopped: true, category: 2});
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
-  assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true});
-  const wrong = await call(400, 'POST', `${v1}/stop`, {query: '?category=7'});
-  assert.match(wrong.detail, /stopped with category 2/);
+  assert.deepEqual(await call(202, 'POST', `${v1}/stop`, {query: '?category=1'}), {stopped: true, category: 1});
+  for (const path of [`${v1}/stop`, `${v1}/arms/{name}/stop`]) {
+    for (const query of ['?category=7', '?categry=0', '?category=0&category=0']) {
+      const wrong = await call(400, 'POST', path, {query, args: {name: 'left'}});
+      assert.match(wrong.detail, /stopped with category 2/);
+    }
+  }
   const args = {name: 'left'};
   const has_link = async (link) => { while ((await call(200, 'GET', `${v1}/arms/{name}`, {args})).link !== link); };
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: {arm: 'left', kind: 'drop_feedback'}});
@@ -378,6 +382,8 @@ test('all objects are set and removed at once', async () => {
 test('speed is changed, faults are injected and removed', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
+  const {faults} = await call(200, 'GET', `${v1}/sim/faults`);
+  assert.equal(faults.find(({id}) => id === fault.id).kind, 'slow');
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
   await call(404, 'DELETE', `${v1}/sim/faults/{id}`, {args: {id: 'first'}});

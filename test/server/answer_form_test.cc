@@ -1,5 +1,8 @@
 // Forms of an answer: newline, ?pretty, text/plain, gzip; and what a reverse proxy needs.
 
+#include <filesystem>
+#include <fstream>
+
 #include "test/server/unpacked.h"
 #include "test/server/verbs_fixture.h"
 
@@ -19,6 +22,10 @@ class AnswerForm : public test::VerbsFixture {
               "Content-Length: 0\r\n\r\n");
     return test::read_answer(wire);
   }
+  void until_left(const char* member, const char* value) {
+    for (int i = 0; i < 10'000 && get("/api/v1/arms/left").json()[member] != value; ++i) {
+    }
+  }
 };
 
 TEST_F(AnswerForm, EndsWithANewlineAndIsIndentedIfAsked) {
@@ -33,7 +40,47 @@ TEST_F(AnswerForm, EndsWithANewlineAndIsIndentedIfAsked) {
   EXPECT_EQ(get("/api/v1/queue?pretty=0").body, get("/api/v1/queue").body);
   expect_refused(get("/api/v1/queue?pretty=yes"), 400, "?pretty", "yes");
   EXPECT_EQ(test::request(port(), "POST", "/api/v1/stop?pretty").body,
-            "{\n  \"stopped\": true\n}\n");
+            "{\n  \"stopped\": true,\n  \"category\": 2\n}\n");
+}
+
+TEST_F(AnswerForm, ExplainsThatALostControllerMustConnectFirst) {
+  start(1.0);
+  ASSERT_EQ(post("/api/v1/sim/faults", R"({"arm": "left", "kind": "cut"})").status, 201);
+  until_left("state", "stopped");
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside).dump()).status, 202);
+  next_job(listener, "wave", [](const json& told) { return !told["waits_on"].empty(); });
+  const std::string why = ask("/jobs/wave", "Accept: text/plain\r\n").body;
+  EXPECT_NE(why.find("the controller of arm left to connect again"), std::string::npos) << why;
+  EXPECT_NE(why.find(" Reconnect the controller of arm left first. If an arm is still stopped when "
+                     "its link is up: POST /api/v1/resume"),
+            std::string::npos)
+      << why;
+  ASSERT_EQ(remove("/api/v1/sim/faults/1").status, 204);
+  until_left("link", "up");
+  EXPECT_NE(ask("/jobs/wave", "Accept: text/plain\r\n").body.find("for arm left to be resumed. "),
+            std::string::npos);
+}
+
+TEST_F(AnswerForm, ExplainsThatAControllerMustBeStarted) {
+  const std::filesystem::path top = test::source_dir();
+  json cell = json::parse(read_text_file(top / "config/two_pandas_remote.json").value(), nullptr,
+                          true, true);
+  for (json& robot : cell["robots"]) {
+    robot["urdf"] = (top / "models/panda.urdf").string();
+    robot["srdf"] = (top / "models/panda.srdf").string();
+    robot["controller"]["endpoint"] = "unix:/none/" + robot["name"].get<std::string>();
+  }
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "unstarted.json";
+  std::ofstream(file) << cell;
+  start(1.0, {}, file);
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside).dump()).status, 202);
+  next_job(listener, "wave", [](const json& told) { return !told["waits_on"].empty(); });
+  const std::string why = ask("/jobs/wave", "Accept: text/plain\r\n").body;
+  EXPECT_NE(why.find("It waits for the controller of arm left to connect."), std::string::npos)
+      << why;
+  EXPECT_NE(why.find(" Start the controller of arm left first"), std::string::npos) << why;
 }
 
 TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
@@ -53,6 +100,12 @@ TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {
   EXPECT_TRUE(
       ask("/queue", text).body.starts_with("policy earliest_start, all arms are stopped\n"));
   EXPECT_EQ(std::ranges::count(ask("/arms", text).body, '\n'), 3);
+  EXPECT_EQ(ask("/stop?category=0", text, "POST").body,
+            "all arms switch their drives off, each joint brakes by itself, and moving arms leave "
+            "their paths; they stay stopped until resumed\n");
+  EXPECT_EQ(ask("/stop", text, "POST").body,
+            "all arms brake on their paths, then hold their positions; they stay stopped until "
+            "resumed\n");
   EXPECT_EQ(ask("/jobs/wavy", text).body, "no such job \"wavy\"; did you mean wave?\n");
   EXPECT_EQ(ask("/arms/lfet/stop", text, "POST").body,
             "no such arm \"lfet\"; did you mean left?\n");

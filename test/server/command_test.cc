@@ -54,6 +54,8 @@ TEST_F(Command, NamesAnInvalidOption) {
        "armloom: --allow-host: expected a host name without a port (found \"a/b\")\n"},
       {"audit --cell " + kCell + " --recording /nowhere",
        "armloom: --recording: no such folder: /nowhere\n"},
+      {"arm --cell " + kCell + " --robot left --listen unix:/nowhere/left",
+       "armloom: --robot: the server simulates this robot itself and never connects to a process"},
       {"validate --cell /dev/zero", "armloom: /dev/zero: it is neither a file nor a pipe\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --policy hopeful", "armloom: --policy: "},
       {simulate + " --policy hopeful", "armloom: --policy: "},

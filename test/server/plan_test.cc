@@ -215,7 +215,7 @@ TEST(Http, RequestIsMarkedWhenItsClientDisconnects) {
   Site site;
   site.handle = [&](const Request& request, const Respond&) { asked.set_value(request.gone); };
   site.refuse_unread = [](const Request&) { return std::nullopt; };
-  site.is_never_limited = [](const Request&) { return false; };
+  site.is_stop = [](const Request&) { return false; };
   std::thread server([&] { (*http)->run(site, false); });
   std::shared_ptr<std::atomic<bool>> gone;
   {

@@ -46,7 +46,7 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
   const test::ServeProcess server({"--cell", test::kCell}, log());
   const std::uint16_t port = server.port();
   EXPECT_EQ(ask(port, "speed 0.5").out, "speed override of the cell: 50 %\n");
-  EXPECT_EQ(ask(port, "speed 0.25 --arm left").out,
+  EXPECT_EQ(ask(port, "speed 0.25 left").out,
             "speed override of arm left: 25 %; with the cell's: 12.5 %\n");
   EXPECT_EQ(ask(port, "speed").out, "speed override of the cell: 50 %\n");
   EXPECT_EQ(json::parse(ask(port, "speed --arm right --json").out)["effective_speed_override"],
@@ -56,6 +56,57 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
   EXPECT_NE(refused.err.find("/speed_override: a speed override is 0, or from 0.001 to 1"),
             std::string::npos)
       << refused.err;
+  for (const std::string typed : {"nan", "inf", "0,5", "left"}) {
+    const auto outcome = ask(port, "speed " + typed);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find(typed + " is not a number"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(RemoteCommand, ExitsWithTwoIfAnArmIsNotResumed) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  ASSERT_EQ(ask(port, "faults add left cut").exit_code, 0);
+  const auto is_lost = [port] {
+    return test::request(port, "GET", "/api/v1/arms/left").json()["link"] == "lost";
+  };
+  for (int i = 0; i < 10'000 && !is_lost(); ++i) {
+  }
+  for (const std::string arms : {"", " left", " right left"}) {
+    const auto outcome = ask(port, "resume" + arms);
+    EXPECT_EQ(outcome.exit_code, 2) << arms;
+    EXPECT_NE(outcome.err.find("left"), std::string::npos) << outcome.err;
+  }
+  const auto all = ask(port, "resume --json");
+  EXPECT_EQ(all.exit_code, 2);
+  EXPECT_EQ(json::parse(all.out)["not_resumed"], json({"left"}));
+  EXPECT_EQ(ask(port, "resume right").exit_code, 0);
+}
+
+TEST_F(RemoteCommand, AddsListsAndRemovesFaults) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  const std::uint16_t port = server.port();
+  EXPECT_EQ(ask(port, "faults").out, "no faults\n");
+  const auto added = ask(port, "faults add left drift --value -0.2 --at 1e5 --for 2 --json");
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_EQ(json::parse(added.out), json({{"id", "1"},
+                                          {"arm", "left"},
+                                          {"kind", "drift"},
+                                          {"value", -0.2},
+                                          {"at_s", 1e5},
+                                          {"for_s", 2.0}}));
+  EXPECT_NE(ask(port, "faults add right stall").out.find("2      right  stall"), std::string::npos);
+  const auto list = ask(port, "faults list --json");
+  EXPECT_EQ(json::parse(list.out)["faults"].size(), 2U) << list.out << list.err;
+  const auto text = ask(port, "faults").out;
+  EXPECT_TRUE(text.starts_with("FAULT  ARM    KIND   VALUE  STARTS")) << text;
+  const auto removed = ask(port, "faults remove 7 1 2");
+  EXPECT_EQ(removed.exit_code, 2);
+  EXPECT_EQ(removed.err, "armloom: no such fault \"7\"\n");
+  EXPECT_EQ(ask(port, "faults").out, "no faults\n");
+  const auto refused = ask(port, "faults add left slow");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("/value"), std::string::npos) << refused.err;
 }
 
 TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
@@ -64,6 +115,18 @@ TEST_F(RemoteCommand, StopsTheOtherArmsIfOneIsUnknown) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err, "armloom: no such arm \"lfet\"; did you mean left?\n");
   EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+}
+
+TEST_F(RemoteCommand, StopsAlsoIfTheCategoryIsWrong) {
+  const test::ServeProcess server({"--cell", test::kCell}, log());
+  for (const std::string category : {"5", "''"}) {
+    ASSERT_EQ(ask(server.port(), "resume").exit_code, 0);
+    const auto outcome = ask(server.port(), "stop --category " + category);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("within 0..2"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("All arms were stopped with category 2"), std::string::npos);
+    EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
+  }
 }
 
 TEST_F(RemoteCommand, ExplainsWhatIsWrong) {

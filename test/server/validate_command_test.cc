@@ -28,6 +28,15 @@ TEST_F(ValidateCommand, PrintsTheContentsOfACell) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(ValidateCommand, PrintsTheEndpointOfARemoteRobot) {
+  const fs::path cell =
+      changed_cell("/robots/1/controller", {{"type", "remote"}, {"endpoint", "tcp:10.0.0.7:4000"}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("; controller sim, lag"));
+  EXPECT_THAT(outcome.out, HasSubstr("; controller remote at tcp:10.0.0.7:4000, lag"));
+}
+
 TEST_F(ValidateCommand, PrintsWhatEachPromiseCosts) {
   const fs::path cell = changed_cell("/robots/0/controller",
                                      {{"tracking_error_rad", 0.01}, {"feedback_timeout_s", 1}});

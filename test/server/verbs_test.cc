@@ -33,6 +33,40 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   expect_refused(post("/api/v1/arms/middle/resume", ""), 404, "request target", "middle");
 }
 
+TEST_F(Verbs, FaultyStopIsRefusedAndStopsAllTheSame) {
+  struct Faulty {
+    std::string query;
+    std::string body;
+    std::string pointer;
+    std::string remedy;
+  };
+  const Faulty all[] = {
+      {"?categry=0", "", "?categry", "known: category, pretty"},
+      {"?category=0&category=0", "", "?category", "send it once"},
+      {"?category=0&x=%1", "", "request target", "send % as %25"},
+      {"?category=7", "", "?category", "within 0..2"},
+      {"?category=", "", "?category", "within 0..2"},
+      {"?category=0&pretty=yes", "", "?pretty", "must be 1, 0"},
+      {"", R"({"category": 0})", "request body", "?category=0"},
+  };
+  start(1.0);
+  for (const Faulty& faulty : all) {
+    for (const std::string path : {"/api/v1/stop", "/api/v1/arms/left/stop"}) {
+      ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+      const auto refused = post(path + faulty.query, faulty.body);
+      EXPECT_EQ(refused.status, 400) << refused.body;
+      EXPECT_EQ(refused.json()["pointer"], faulty.pointer) << refused.body;
+      const std::string detail = refused.json()["detail"];
+      EXPECT_NE(detail.find(faulty.remedy), std::string::npos) << detail;
+      EXPECT_TRUE(detail.ends_with("stopped with category 2")) << detail;
+      const json left = get("/api/v1/arms/left").json();
+      EXPECT_EQ(left["state"], "stopped") << path << faulty.query;
+      EXPECT_EQ(left["drives_on"], true) << "not category 0";
+      EXPECT_EQ(get("/api/v1/queue").json()["stopped"], path == "/api/v1/stop");
+    }
+  }
+}
+
 TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   start(1.0);
   test::Listener listener(port());
@@ -126,6 +160,45 @@ TEST_F(Verbs, InvalidFaultsAreRefusedWithPlaceAndValue) {
   EXPECT_EQ(drift.status, 201) << drift.body;
   EXPECT_EQ(drift.json()["value"], 0.1) << "the default";
   EXPECT_EQ(remove(slow.headers.at("location")).status, 204);
+}
+
+TEST_F(Verbs, ListsFaultsUntilTheyAreOver) {
+  start(50.0);
+  const std::string faults = "/api/v1/sim/faults";
+  EXPECT_EQ(get(faults).json()["faults"], json::array());
+  const auto add = [&](const json& fault) { ASSERT_EQ(post(faults, fault.dump()).status, 201); };
+  add({{"arm", "right"}, {"kind", "delay"}, {"value", 0.01}, {"at_s", 1e5}, {"for_s", 2}});
+  add({{"arm", "left"}, {"kind", "slow"}, {"value", 0.5}});
+  add({{"arm", "left"}, {"kind", "noise"}, {"for_s", 1e5}});
+  add({{"arm", "right"}, {"kind", "reject"}});
+  add({{"arm", "right"}, {"kind", "stall"}, {"for_s", 0.01}});
+  json list = get(faults).json();
+  for (int i = 0; i < 1000 && list["faults"].size() > 4; ++i) list = get(faults).json();
+  ASSERT_EQ(list["faults"].size(), 4U) << "fault 5 is over: " << list;
+  EXPECT_EQ(list["faults"][0], json({{"id", "1"},
+                                     {"arm", "right"},
+                                     {"kind", "delay"},
+                                     {"value", 0.01},
+                                     {"at_s", 1e5},
+                                     {"for_s", 2.0},
+                                     {"remaining_s", 2.0}}));
+  const json& slow = list["faults"][1];
+  EXPECT_EQ(slow["arm"], "left");
+  EXPECT_LE(slow["at_s"], list["t_s"]);
+  EXPECT_TRUE(slow["for_s"].is_null() && slow["remaining_s"].is_null()) << slow;
+  const json& noise = list["faults"][2];
+  EXPECT_EQ(noise["value"], 0.01) << "the default";
+  EXPECT_NEAR(noise["remaining_s"].get<double>(),
+              noise["at_s"].get<double>() + 1e5 - list["t_s"].get<double>(), 1e-6);
+  // `reject` is over when it has occurred.
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("r", test::kHome, kAside, "right").dump()).status, 202);
+  next_job(listener, "r", [](const json& job) { return !job["result"].is_null(); });
+  EXPECT_EQ(remove(faults + "/2").status, 204);
+  list = get(faults).json()["faults"];
+  ASSERT_EQ(list.size(), 2U) << list;
+  EXPECT_EQ(list[0]["id"], "1");
+  EXPECT_EQ(list[1]["id"], "3");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -52,6 +53,27 @@ void check_endpoint(const ControllerDescription& controller, const std::string& 
   } else if (endpoint->port == "0") {
     diagnostics.in_cell("bad-endpoint", pointer + "/endpoint",
                         "the server cannot connect to port 0: name the controller's port",
+                        controller.endpoint);
+  }
+}
+
+// Reports robots that share an endpoint: a process is one robot, so the others would never connect.
+void check_endpoints(const CellDescription& description, Diagnostics& diagnostics) {
+  std::map<std::string, std::size_t> first;  // robot, by endpoint
+  for (std::size_t r = 0; r < description.robots.size(); ++r) {
+    const ControllerDescription& controller = description.robots[r].controller;
+    const std::string pointer = "/robots/" + std::to_string(r) + "/controller";
+    check_endpoint(controller, pointer, diagnostics);
+    auto endpoint = parse_endpoint(controller.endpoint);
+    if (controller.type != "remote" || !endpoint) continue;
+    endpoint->path = std::filesystem::path(endpoint->path).lexically_normal().string();
+    const auto [it, is_new] = first.emplace(endpoint->text(), r);
+    if (is_new) continue;
+    diagnostics.in_cell("duplicate-endpoint", pointer + "/endpoint",
+                        "the endpoint " + controller.endpoint + " is also that of robot " +
+                            description.robots[it->second].name + " (/robots/" +
+                            std::to_string(it->second) +
+                            "/controller/endpoint): give each robot an endpoint of its own",
                         controller.endpoint);
   }
 }
@@ -204,8 +226,8 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
       within(CheckingSettings::tracking_error_range, *controller.tracking_error_rad,
              pointer + "/tracking_error_rad");
     }
-    check_endpoint(controller, pointer, diagnostics);
   }
+  check_endpoints(d, diagnostics);
 }
 
 }  // namespace armloom
