@@ -174,6 +174,12 @@ export const kText = {
     details_of: (name: string) => `Details of arm ${name}`,
     unknown_then: 'not known at this time',
     no_job: 'no job',
+    lost: (detail: string) => `Link lost: last known position${detail === '' ? '' : ` (${detail})`}`,
+    connecting: (detail: string) => `Waits for its controller; position not measured yet${detail === '' ? '' : ` (${detail})`}`,
+    stop_cause: (cause: string) => `Stopped: ${cause}`,
+    drives_off: 'Drives off',
+    stale: ', reports late',
+    stale_title: 'The last report of the controller is late. The arm may not move beyond what it was granted before.',
   },
 
   jog: {
@@ -582,6 +588,9 @@ export const kText = {
 
     fault: (then: string) => `Controller fault: the motion of the arm has failed. Clear the fault at the controller, then resume the arm${then}.`,
     fault_next: (next: string) => `: ${next} then starts as soon as its path is free`,
+    lost: 'The arm may be elsewhere. Start its controller; then resume the arm.',
+    connecting: 'Start its controller. The arm then becomes ready by itself, unless an operator stopped it.',
+    no_link: 'Start the controller first: an arm without a link is not resumed',
     resume_job: (job: string, percent: number) => `Resume: ${job} continues from ${percent} % of its path as soon as the path is free. To prevent this, cancel it first.`,
     resume_next: (next: string) => `Resume: ${next} starts as soon as its path is free. To prevent this, cancel it first.`,
     resume_idle: 'Resume: the arm then accepts jobs again; none is waiting for it.',
@@ -761,6 +770,8 @@ export const kText = {
     stopped: 'Stopped.',
     arm_stopped: (arm: string) => `${arm} is stopped`,
     arm_fault: (arm: string) => `${arm} has a fault`,
+    arm_lost: (arm: string) => `The link to ${arm} is lost`,
+    arm_connecting: (arm: string) => `${arm} waits for its controller`,
     shown: 'What the 3D view shows',
     paths: 'Paths',
     paths_title: 'Remaining tool paths, one marker every 0.05 s; bright up to the granted authority',
