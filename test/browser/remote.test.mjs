@@ -74,3 +74,9 @@ test('Drives that are off are shown', { timeout: 300_000 }, async () => {
   await reads(page.locator('[data-test=page-arm] [data-test=arm-note]'), /^Drives off$/);
   await page.screenshot(path_for('drives-off-dark'));
 });
+
+test('Faults are not offered for remote controllers', { timeout: 300_000 }, async () => {
+  await go_to(page, '#/settings');
+  await reads(page.locator('[data-test=no-faults]'), /only simulated controllers take faults/);
+  await counts(page.locator('[data-test=inject-fault]'), 0);
+});

@@ -671,6 +671,7 @@ export const kText = {
   faults: {
     title: 'Faults of simulated arms',
     hint: 'For tests and training. A fault acts at once. Some faults let arms collide.',
+    none_simulated: 'Not available: this cell has remote controllers, and only simulated controllers take faults. If other arms of the cell are simulated, use POST /api/v1/sim/faults.',
     arm: 'Arm',
     kind: 'Kind',
     value: 'Value',

@@ -1,5 +1,15 @@
 import { describe, expect, it } from 'vitest';
-import { kKinds, may_last, request_of, value_of } from '../src/frame/fault_request';
+import type { CellRobot } from '../src/server/messages';
+import { kKinds, may_last, request_of, simulated_arms, value_of } from '../src/frame/fault_request';
+
+describe('simulated_arms', () => {
+  it('has no arm if the cell has remote controllers', () => {
+    const arm = { name: 'left', group: 'arm', joints: [], gripper_joints: [], home: [], named_states: {} };
+    const robots = [{ name: 'r', prefix: '', base: { xyz: [0, 0, 0], rpy: [0, 0, 0] }, urdf: '', srdf: '', meshes: {}, arms: [arm, { ...arm, name: 'right' }] }] satisfies CellRobot[];
+    expect(simulated_arms({ simulated: true, robots })).toEqual(['left', 'right']);
+    expect(simulated_arms({ simulated: false, robots })).toEqual([]);
+  });
+});
 
 describe('request_of', () => {
   it('has a value and a duration only if the kind has them', () => {

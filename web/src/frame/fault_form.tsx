@@ -1,17 +1,17 @@
 // Injects faults into simulated arms, and removes them.
 
 import { useState } from 'preact/hooks';
-import type { Fault, FaultKind } from '../server/messages';
+import type { Cell, Fault, FaultKind } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { kText } from '../strings';
-import { kKinds, may_last, request_of, value_of } from './fault_request';
+import { kKinds, may_last, request_of, simulated_arms, value_of } from './fault_request';
 import { NumberField } from './number_field';
 
 const kWords = kText.faults;
 
-export function FaultForm({ app }: { app: App }) {
-  const arms = [...app.store.arms.keys()];
+export function FaultForm({ app, cell }: { app: App; cell: Cell }) {
+  const arms = simulated_arms(cell);
   const [chosen, set_arm] = useState<string | null>(null);
   const [kind, set_kind] = useState<FaultKind>('stall');
   const [value, set_value] = useState('');
@@ -35,6 +35,7 @@ export function FaultForm({ app }: { app: App }) {
     await app.actions.ask(kText.command.remove_fault(id), app.api.remove_fault(id));
     set_faults((before) => before.filter((fault) => fault.id !== id));
   };
+  if (arms.length === 0) return <><h2>{kWords.title}</h2><p class="hint" data-test="no-faults">{kWords.none_simulated}</p></>;
   return (
     <form data-test="fault-form" onSubmit={(event) => { event.preventDefault(); void inject(); }}>
       <h2>{kWords.title}</h2>

@@ -1,6 +1,6 @@
 // The faults of simulated arms as a form edits them. Pure.
 
-import type { FaultKind, FaultRequest } from '../server/messages';
+import type { Cell, FaultKind, FaultRequest } from '../server/messages';
 import { kText } from '../strings';
 import { number_in } from './number_text';
 
@@ -9,6 +9,14 @@ const kWords = kText.faults;
 export const kKinds: Record<FaultKind, string> = kWords.kinds;
 const kValues: Partial<Record<FaultKind, { unit: string; usual: number }>> = kWords.values;
 const kOnce: readonly FaultKind[] = ['fault', 'reject'];
+
+/**
+ * Returns the arms whose controllers take faults. If any controller of the cell is remote, these are
+ * unknown, and the list is empty.
+ */
+export function simulated_arms({ simulated, robots }: Pick<Cell, 'simulated' | 'robots'>): string[] {
+  return simulated ? robots.flatMap(({ arms }) => arms.map(({ name }) => name)) : [];
+}
 
 /** Returns the unit and usual value of this kind of fault, or null if it has no value. */
 export function value_of(kind: FaultKind): { unit: string; usual: number } | null {

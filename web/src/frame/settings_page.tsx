@@ -72,7 +72,7 @@ export function SettingsPage({ app }: { app: App }) {
           <h2>{kText.policies.title}</h2>
           <PolicyForm app={app} />
           <p class="hint"><Link app={app} to={{ page: 'policies' }} test="compare-policies">{kWords.compare}</Link></p>
-          <FaultForm app={app} />
+          <FaultForm app={app} cell={cell} />
           <p class="hint"><a class="link" href={address_on_server('docs')}>{kWords.api}</a></p>
         </section>
       )}
