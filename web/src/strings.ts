@@ -677,6 +677,7 @@ export const kText = {
     value: 'Value',
     for_s: 'Duration, s; empty: until it is removed',
     inject: 'Inject the fault',
+    present: 'Faults that are not over',
     injected: 'Faults injected on this page',
     entry: (kind: string, arm: string) => `${kind} of ${arm}`,
     remove: 'Remove',
@@ -901,7 +902,7 @@ export const kText = {
     refused: 'Refused',
     unreadable: (what: string) => `The ${what} cannot be read`,
     answers: {
-      fault: 'fault',
+      fault: 'fault', faults: 'list of faults',
       cell: 'cell', job: 'job', jobs: 'list of jobs', trajectory: 'trajectory',
       timeline: 'timeline', diagram: 'diagram', verdict: 'verdict', plan: 'plan',
       comparison: 'comparison', control: 'control', jog_motion: 'jog motion',
