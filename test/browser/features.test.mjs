@@ -234,6 +234,27 @@ test('Job page replans a running job', { timeout: 300_000 }, async () => {
   await ended('another-way');
 });
 
+test('Faults of all clients are listed and can be removed; late reports are shown', { timeout: 300_000 }, async () => {
+  await speed(1);
+  await go('#/settings');
+  await page.locator('[data-test=fault-kind]').selectOption('delay');
+  await page.locator('[data-test=fault-value]').fill('0.07');  // later than half of the feedback timeout
+  await page.locator('[data-test=inject-fault]').click();
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'reports late' }).waitFor();
+  const other = await ask(page, 'POST', '/sim/faults', { arm: 'right', kind: 'slow', value: 0.5 });
+  assert.equal(other.status, 201);
+  const listed = page.locator('[data-test=injected-faults] li');
+  await listed.filter({ hasText: 'slow of right: 0.5' }).waitFor();
+  await page.locator('[data-test=injected-faults]').scrollIntoViewIfNeeded();
+  await page.screenshot(path_for('faults-dark'));
+  await listed.filter({ hasText: 'delay of left: 0.07' }).getByRole('button', { name: 'Remove' }).click();
+  await counts(listed, 1);
+  assert.equal((await ask(page, 'DELETE', `/sim/faults/${other.value.id}`)).status, 204);
+  await counts(listed, 0);
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasNotText: 'reports late' }).waitFor();
+  await go('#/');
+});
+
 test('No event is missed or doubled after a broken connection', { timeout: 300_000 }, async () => {
   const before = await page.evaluate(() => window.armloom.numbers());
   assert.deepEqual([before.missed, before.doubled], [0, 0]);

@@ -197,6 +197,19 @@ export function arm_in_words(arm: Arm, facts: Pick<Facts, 'arm_state' | 'waiting
   return next ? waited_for(next) : state;
 }
 
+/** Returns what the state of an arm does not say: its link, the cause of its stop, its drives. */
+export function arm_notes({ link, link_detail, stop_cause, drives_on }: Arm): string[] {
+  const words = kText.arm;
+  const detail = link_detail === null ? '' : shown_text(link_detail);
+  const has_link = link === 'up' || link === 'stale';
+  return [
+    ...(link === 'lost' ? [words.lost(detail)] : []),
+    ...(link === 'connecting' ? [words.connecting(detail)] : []),
+    ...(has_link && stop_cause !== undefined ? [words.stop_cause(shown_text(stop_cause))] : []),
+    ...(drives_on ? [] : [words.drives_off]),
+  ];
+}
+
 function waited(job: Job, until_s: number | null): Figure {
   if (job.submitted_s === null || until_s === null) return { text: '', title: '' };
   return { text: kText.figure.waited(seconds(Math.max(0, until_s - job.submitted_s))), title: kText.figure.waited_title };

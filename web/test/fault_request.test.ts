@@ -1,5 +1,15 @@
 import { describe, expect, it } from 'vitest';
-import { kKinds, may_last, request_of, value_of } from '../src/frame/fault_request';
+import type { CellRobot } from '../src/server/messages';
+import { fault_in_words, kKinds, may_last, request_of, simulated_arms, value_of } from '../src/frame/fault_request';
+
+describe('simulated_arms', () => {
+  it('has no arm if the cell has remote controllers', () => {
+    const arm = { name: 'left', group: 'arm', joints: [], gripper_joints: [], home: [], named_states: {} };
+    const robots = [{ name: 'r', prefix: '', base: { xyz: [0, 0, 0], rpy: [0, 0, 0] }, urdf: '', srdf: '', meshes: {}, arms: [arm, { ...arm, name: 'right' }] }] satisfies CellRobot[];
+    expect(simulated_arms({ simulated: true, robots })).toEqual(['left', 'right']);
+    expect(simulated_arms({ simulated: false, robots })).toEqual([]);
+  });
+});
 
 describe('request_of', () => {
   it('has a value and a duration only if the kind has them', () => {
@@ -10,6 +20,11 @@ describe('request_of', () => {
   it('is null if a text is not a number', () => {
     expect(request_of('left', 'drift', '0,2', '')).toBeNull();
     expect(request_of('left', 'stall', '', 'x')).toBeNull();
+  });
+  it('is shown with its value if the kind has one', () => {
+    const fault = { id: '1', arm: 'left', kind: 'noise', at_s: null, for_s: null, value: 0.01 } as const;
+    expect(fault_in_words(fault)).toBe('noise of left: 0.01');
+    expect(fault_in_words({ ...fault, kind: 'cut', value: 0 })).toBe('cut of left');
   });
   it('offers a usual value for each kind that has one', () => {
     expect(Object.keys(kKinds)).toHaveLength(18);

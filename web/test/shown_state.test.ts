@@ -3,11 +3,11 @@ import type { Arm, Forecast, Job } from '../src/server/messages';
 import { parse_message } from '../src/server/messages';
 import { states_of } from '../src/jobs/states';
 import { when_in_words } from '../src/jobs/when';
-import { need_of } from '../src/recovery/needs';
+import { need_of, waiting_arms } from '../src/recovery/needs';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
 import { lane_in_words } from '../src/timeline/mark_words';
-import { figure_in_words } from '../src/wording';
+import { arm_notes, figure_in_words } from '../src/wording';
 import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
 
 const kStop = wait_json({ kind: 'stop', id: null, arm: 'left', links: [], own_time_s: null, other_time_s: null, clearance_m: null, detail: 'operator' });
@@ -51,6 +51,60 @@ describe('Stopped arm', () => {
     for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'paused', waits_on: [] })));
     expect(store.book.pauses('pick').length).toBeLessThanOrEqual(400);
     expect(store.book.changes('pick').length).toBeLessThanOrEqual(400);
+  });
+});
+
+describe('Arm without a link to its controller', () => {
+  const lost = (over: object = {}) => arm({ state: 'moving', link: 'lost', link_detail: 'connection closed', ...over });
+  const store = new Store(() => 0);
+  told(store, snapshot(1));
+  const shown = (seq: number, told_arm: Arm) => {
+    told(store, envelope('arm', seq, told_arm));
+    return store.arm_state(told_arm);
+  };
+
+  it('is shown by its link, whatever its last reported state', () => {
+    for (const [i, state] of (['moving', 'stopped', 'fault', 'idle'] as const).entries()) {
+      expect(shown(2 + i, lost({ state }))).toBe('link lost');
+      expect(shown(6 + i, lost({ state, link: 'connecting' }))).toBe('connecting');
+    }
+    expect(shown(10, lost({ link: 'stale' }))).toBe('moving');
+  });
+
+  it('has no progress that goes on, and a job that does not brake', () => {
+    const job = stopped_job({ state: 'running', waits_on: [] });
+    const braking = { ...job, stopping: true };
+    told(store, envelope('job', 11, job));
+    shown(12, arm({ state: 'moving' }));
+    expect(store.is_braking(braking)).toBe(true);
+    expect(store.progress(job)).toBeCloseTo(0.5);
+    shown(13, lost());
+    expect(store.is_braking(braking)).toBe(false);
+    expect(store.progress(job)).toBe(0.25);
+  });
+
+  it('must be resumed if the link was lost, but not before the first connection', () => {
+    const halted = (one: Arm) => waiting_arms({ arms: new Map([['left', one]]), job: () => null }).length > 0;
+    expect(halted(lost())).toBe(true);
+    expect(halted(lost({ state: 'stopped', link: 'connecting' }))).toBe(false);
+    expect(halted(arm({ state: 'stopped' }))).toBe(true);
+    expect(need_of(lost(), stopped_job(), null)).toMatchObject({ resume: true, words: expect.stringMatching(/Start its controller; then resume/) });
+    expect(need_of(lost({ state: 'stopped', link: 'connecting' }), null, null)).toMatchObject({ resume: false, words: expect.stringMatching(/^Start its controller\./) });
+  });
+
+  it('has notes on its link, its drives and the cause of its stop', () => {
+    expect(arm_notes(lost({ stop_cause: 'link lost: connection closed' }))).toEqual(['Link lost: last known position (connection closed)']);
+    expect(arm_notes(lost({ link: 'connecting' }))).toEqual(['Waits for its controller; position not measured yet (connection closed)']);
+    expect(arm_notes(arm({ state: 'stopped', stop_cause: 'operator', drives_on: false }))).toEqual(['Stopped: operator', 'Drives off']);
+    expect(arm_notes(arm({ link: 'stale' }))).toEqual([]);
+  });
+
+  it('was stopped on the timeline from the loss of the link until the resume', () => {
+    shown(20, arm({ state: 'idle' }));
+    shown(21, lost());
+    shown(22, arm({ state: 'stopped' }));
+    shown(23, arm({ state: 'idle' }));
+    expect(store.halts.get('left')?.at(-1)).toEqual({ from_s: 21, to_s: 23, stopped: true });
   });
 });
 

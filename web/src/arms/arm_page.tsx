@@ -13,6 +13,7 @@ import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { arm_color } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
+import { is_halted } from '../state/shown_state';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
@@ -20,7 +21,7 @@ import { lane_in_words } from '../timeline/mark_words';
 import { short_names, shown_name } from '../names';
 import { reason_in_words, title_of } from '../wording';
 import { kText } from '../strings';
-import { StatePill } from './arms';
+import { ArmNotes, StatePill } from './arms';
 
 const kWords = kText.arm;
 
@@ -45,6 +46,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
         <span class="grow" />
         <StopOfArm arm={arm} app={app} />
       </div>
+      <ArmNotes arm={arm_then} />
       <p class="hint">
         {job ? <>{then === app ? kWords.executes : kWords.executed} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : waiting ? <>{kWords.next} <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
       </p>
@@ -63,8 +65,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
 
 function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
   const why_disabled = why_no_command(app);
-  const state = app.store.arm_state(arm);
-  return state === 'stopped' || state === 'fault'
+  return is_halted(arm)
     ? <button class="small" data-test="resume-arm" title={kText.common.open_recovery} onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
     : <button class="small" disabled={why_disabled !== null} data-test="stop-arm" title={kWords.stop_title} onClick={() => void app.actions.stop_arm(arm.name)}>{kWords.stop}</button>;
 }

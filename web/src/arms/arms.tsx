@@ -10,7 +10,7 @@ import type { App } from '../state/app';
 import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
-import { reason_in_words, short_id, title_of, until_in_words } from '../wording';
+import { arm_notes, reason_in_words, short_id, title_of, until_in_words } from '../wording';
 import { kText } from '../strings';
 import { Bar } from './bar';
 import { SpeedSlider } from './speed_slider';
@@ -50,6 +50,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
         </span>
         {!waiting && <Bar share={progress} />}
       </Link>
+      <ArmNotes arm={arm} />
       {held && <Waiting job={held} app={app} />}
       <SpeedSlider app={app} arm={arm.name} told={arm.speed_override ?? 1} effective={arm.effective_speed_override} />
     </div>
@@ -70,7 +71,12 @@ function Waiting({ job, app }: { job: Job; app: App }) {
   );
 }
 
+/** Shows what the state does not say: the link, the cause of a stop, the drives. */
+export function ArmNotes({ arm }: { arm: Arm }) {
+  return <>{arm_notes(arm).map((words) => <p key={words} class="note small" data-test="arm-note">{words}</p>)}</>;
+}
+
 export function StatePill({ arm, app }: { arm: Arm; app: App }) {
   const state = app.store.arm_state(arm);
-  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColors[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
+  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColors[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}{arm.link === 'stale' && <i title={kText.arm.stale_title}>{kText.arm.stale}</i>}</span>;
 }

@@ -1,7 +1,9 @@
 // The faults of simulated arms as a form edits them. Pure.
 
-import type { FaultKind, FaultRequest } from '../server/messages';
+import type { Cell, Fault, FaultKind, FaultRequest } from '../server/messages';
+import { shown_name } from '../names';
 import { kText } from '../strings';
+import { number_in_words } from '../wording';
 import { number_in } from './number_text';
 
 const kWords = kText.faults;
@@ -10,9 +12,21 @@ export const kKinds: Record<FaultKind, string> = kWords.kinds;
 const kValues: Partial<Record<FaultKind, { unit: string; usual: number }>> = kWords.values;
 const kOnce: readonly FaultKind[] = ['fault', 'reject'];
 
+/**
+ * Returns the arms whose controllers take faults. If any controller of the cell is remote, these are
+ * unknown, and the list is empty.
+ */
+export function simulated_arms({ simulated, robots }: Pick<Cell, 'simulated' | 'robots'>): string[] {
+  return simulated ? robots.flatMap(({ arms }) => arms.map(({ name }) => name)) : [];
+}
+
 /** Returns the unit and usual value of this kind of fault, or null if it has no value. */
 export function value_of(kind: FaultKind): { unit: string; usual: number } | null {
   return kValues[kind] ?? null;
+}
+
+export function fault_in_words({ kind, arm, value }: Fault): string {
+  return kWords.entry(kind, shown_name(arm)) + (value_of(kind) ? `: ${number_in_words(value)}` : '');
 }
 
 /** Returns true if a fault of this kind may have a duration. */

@@ -7,7 +7,7 @@ import { seconds } from '../wording';
 import { Link } from '../route/link';
 import { kPages } from './pages';
 import { kText } from '../strings';
-import { FaultForm } from './fault_form';
+import { Faults } from './fault_form';
 import { PolicyForm } from './policy_form';
 
 const kWords = kText.settings;
@@ -72,7 +72,7 @@ export function SettingsPage({ app }: { app: App }) {
           <h2>{kText.policies.title}</h2>
           <PolicyForm app={app} />
           <p class="hint"><Link app={app} to={{ page: 'policies' }} test="compare-policies">{kWords.compare}</Link></p>
-          <FaultForm app={app} />
+          <Faults app={app} cell={cell} />
           <p class="hint"><a class="link" href={address_on_server('docs')}>{kWords.api}</a></p>
         </section>
       )}

@@ -77,7 +77,7 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
   const why_disabled = why_no_command(app);
   if (!question.asked) {
     return (
-      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? 'cancel-row' : 'cancel-job'} disabled={job.stopping || why_disabled !== null} title={why_disabled ?? kWords.cancel(job.id)}
+      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? 'cancel-row' : 'cancel-job'} disabled={app.store.is_braking(job) || why_disabled !== null} title={why_disabled ?? kWords.cancel(job.id)}
         aria-label={kWords.cancel(job.id)} onClick={question.ask}>{words ?? kWords.cancel_short}</button>
     );
   }
@@ -106,7 +106,7 @@ function Replan({ job, app, words = kWords.replan }: Props & { words?: string })
   };
   return (
     <div class="line">
-      <button ref={question.button} class="small" data-test="replan" disabled={why_disabled !== null || job.stopping} title={why_disabled ?? kWords.replan_title} onClick={ask}>
+      <button ref={question.button} class="small" data-test="replan" disabled={why_disabled !== null || app.store.is_braking(job)} title={why_disabled ?? kWords.replan_title} onClick={ask}>
         {asked ? kWords.confirm_replan : words}
       </button>
       {asked && <><span class="small">{kWords.replan_loss}</span><button class="small" onClick={question.take_back}>{kWords.keep_path}</button></>}

@@ -82,7 +82,7 @@ function Progress({ job, app }: Props) {
 function Figure({ job, app }: Props) {
   if (!is_terminal(job)) use_beats(app.store);
   const stale = use_stale(app.store) && !is_terminal(job);
-  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), known_end_of(job, step_of(job, app.store.forecast)));
+  const { text, title } = figure_in_words({ ...job, stopping: app.store.is_braking(job) }, app.store.t_s, app.store.progress(job), known_end_of(job, step_of(job, app.store.forecast)));
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 

@@ -1,7 +1,7 @@
 // Finds what stopped the arms, and what each arm needs to continue. Pure.
 
 import type { Arm, Job } from '../server/messages';
-import { is_stopped } from '../state/shown_state';
+import { is_halted, is_stopped } from '../state/shown_state';
 import type { Notice } from '../state/notices';
 import type { Store } from '../state/store';
 import { kText } from '../strings';
@@ -15,11 +15,11 @@ export function cause_of(notices: readonly Notice[]): Notice | null {
 }
 
 /**
- * Returns the arms that must be resumed: arms that are stopped, have a fault, or are braking to a
- * stop.
+ * Returns the arms that must be resumed: arms that are stopped, have a fault, have lost the link to
+ * their controller, or are braking to a stop.
  */
 export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
-  return [...store.arms.values()].filter((arm) => arm.state === 'fault' || arm.state === 'stopped' || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
+  return [...store.arms.values()].filter((arm) => is_halted(arm) || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
 }
 
 export interface Need { words: string; resume: boolean; home: boolean }
@@ -32,6 +32,8 @@ const kAtHome_rad = 0.02;
  */
 export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null, next: Job | null = null): Need {
   const name = job ? title_of(job) : '';
+  if (arm.link === 'lost') return { words: kWords.lost, resume: true, home: false };
+  if (arm.link === 'connecting') return { words: kWords.connecting, resume: false, home: false };
   switch (arm.state) {
     case 'fault':
       return { words: kWords.fault(next ? kWords.fault_next(title_of(next)) : ''), resume: true, home: false };

@@ -3,7 +3,7 @@
 import { cut_text } from '../names';
 import { kText } from '../strings';
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_faults, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
   type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
 } from './messages';
 
@@ -143,6 +143,13 @@ export class Api {
 
   async renew_jog(arm: string, key: string): Promise<Answer<Jog>> {
     return checked(kAnswers.jog_motion, await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify({ control: key })), parse_jog);
+  }
+
+  /** Returns the present faults, or null if the server is too old to list them. */
+  async faults(): Promise<Answer<Fault[] | null>> {
+    const answer = await this.ask('GET', '/sim/faults');
+    if (!answer.ok && (answer.problem.status === 404 || answer.problem.status === 405)) return { ok: true, value: null };
+    return checked(kAnswers.faults, answer, parse_faults);
   }
 
   /** Injects a fault into a simulated arm. */

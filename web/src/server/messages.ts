@@ -11,7 +11,7 @@ import shapes from '../contract/schemas.json';
 export type { Parsed };
 export type ArmState = Schemas['ArmState'];
 export type JobState = Schemas['JobState'];
-export type Arm = Schemas['Arm'];
+export type Arm = Schemas['Arm'] & { stop_cause?: string };
 /** A reason to wait. Each of its times counts from the start of that job's own trajectory. */
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];
@@ -150,6 +150,15 @@ export const parse_comparison = (value: unknown): Parsed<Comparison> => check('C
 export const parse_control = (value: unknown): Parsed<Control> => check('Control', value);
 export const parse_control_taken = (value: unknown): Parsed<ControlTaken> => check('ControlTaken', value);
 export const parse_fault = (value: unknown): Parsed<Fault> => check('Fault', value);
+export function parse_faults(value: unknown): Parsed<Fault[]> {
+  const { faults } = (value ?? {}) as { faults?: unknown };
+  if (!Array.isArray(faults)) return { ok: false, fault: '/faults: expected an array' };
+  const parsed = faults.map(parse_fault);
+  const wrong = parsed.findIndex(({ ok }) => !ok);
+  const first = parsed[wrong];
+  if (first && !first.ok) return { ok: false, fault: `/faults/${wrong}${first.fault}` };
+  return { ok: true, value: faults as Fault[] };
+}
 export const parse_jog = (value: unknown): Parsed<Jog> => check('Jog', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_measured_states = (value: unknown): Parsed<MeasuredStates> => check('MeasuredStates', value);

@@ -8,7 +8,7 @@ import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
 import type { Snapshot } from './snapshots';
 import { counted, kNoNumbers, type Numbers } from './numbers';
-import type { ShownState } from './shown_state';
+import { state_by_link, type ShownState } from './shown_state';
 
 /**
  * A restart of the server. `at` is the wall time of the first message of the new session. `lost`
@@ -16,7 +16,7 @@ import type { ShownState } from './shown_state';
  */
 export interface Restart { at: string; lost: readonly Job[] }
 
-const kAtRest: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
+const kAtRest: ReadonlySet<ShownState> = new Set(['paused', 'stopped', 'fault', 'link lost', 'connecting'] as const);
 
 export class Facts {
   stream: string | null = null;
@@ -110,7 +110,7 @@ export class Facts {
    */
   progress(job: Job): number {
     const heard_s = this.book.heard_at(job.id);
-    const moves = job.state === 'running' && job.arms.every((arm) => !kAtRest.has(this.arms.get(arm)?.state ?? 'moving'));
+    const moves = job.state === 'running' && !this.arms_of(job).some((arm) => kAtRest.has(this.arm_state(arm)));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
     const share = Math.min(1, ...job.arms.map((arm) => this.arms.get(arm)?.effective_speed_override ?? 1));
@@ -120,7 +120,12 @@ export class Facts {
   /** Returns the state of the arm as the page shows it. */
   arm_state(arm: Arm): ShownState {
     if (this.unknown_arms_.has(arm.name)) return 'not known';
-    return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
+    return state_by_link(arm) ?? (arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state);
+  }
+
+  /** Returns true if the job brakes. This is unknown, and false, if the link to an arm is lost. */
+  is_braking(job: Job): boolean {
+    return job.stopping && !this.arms_of(job).some(({ link }) => link === 'lost');
   }
 
   /** Returns the arm's next job that has not started, or null. */
@@ -163,6 +168,10 @@ export class Facts {
    */
   q_of(arm: Arm): number[] {
     return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
+  }
+
+  private arms_of({ arms }: Job): Arm[] {
+    return arms.flatMap((name) => this.arms.get(name) ?? []);
   }
 
   private take_snapshot({ data, t_s }: Snapshot, same_run: boolean): void {

@@ -13,12 +13,14 @@ export const kStateColors: Record<ShownState, string> = {
   waiting: 'var(--paused)',
   stopped: 'var(--alarm)',
   fault: 'var(--alarm)',
+  'link lost': 'var(--alarm)',
+  connecting: 'var(--paused)',
   'not known': 'var(--dim)',
 };
 
 /** A glyph for each state, because states must be recognized without colors. */
 export const kStateGlyphs: Record<ShownState, string> = {
-  idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
+  idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'link lost': '⊘', connecting: '…', 'not known': '?',
 };
 
 /** Returns the color of an arm. It depends on the place of the arm in the cell's list. */

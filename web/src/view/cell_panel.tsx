@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { waiting_arms } from '../recovery/needs';
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
+import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import type { Shows } from '../state/settings';
 import { instant_of, why_unheard } from '../state/instant';
@@ -107,16 +108,24 @@ function WithoutPositions({ app }: { app: App }) {
   );
 }
 
-/** States which arms are stopped, with a link to the recovery page. */
+/** States which arms are stopped or have no link, with a link to the recovery page. */
 function StoppedMark({ app }: { app: App }) {
   const { store } = app;
   const waiting = waiting_arms(store);
-  if (!store.stopped && waiting.length === 0) return null;
-  const words = store.stopped ? kWords.stopped : `${waiting.map(({ name, state }) => (state === 'fault' ? kWords.arm_fault(name) : kWords.arm_stopped(name))).join(', ')}.`;
+  const connecting = [...store.arms.values()].filter(({ link }) => link === 'connecting');
+  const are_all = store.stopped && connecting.length === 0;
+  if (!are_all && waiting.length + connecting.length === 0) return null;
+  const words = are_all ? kWords.stopped : `${[...waiting, ...connecting].map(why_at_rest).join(', ')}.`;
   return (
-    <div class="stopped-mark" role="status" data-test={store.stopped ? 'stopped' : 'some-stopped'}>■ {words}{' '}
+    <div class="stopped-mark" role="status" data-test={are_all ? 'stopped' : 'some-stopped'}>■ {words}{' '}
       <Link app={app} to={{ page: 'recovery' }} test="to-recovery">{kText.common.open_recovery}</Link></div>
   );
+}
+
+function why_at_rest({ name, state, link }: Arm): string {
+  if (link === 'lost') return kWords.arm_lost(name);
+  if (link === 'connecting') return kWords.arm_connecting(name);
+  return state === 'fault' ? kWords.arm_fault(name) : kWords.arm_stopped(name);
 }
 
 const kShows: readonly [what: keyof Shows, title: string, meaning: string][] = [

@@ -1,7 +1,7 @@
 // A label under each arm. It shows the arm's name and its state, in words, glyph and color.
 
 import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
-import type { ShownState } from '../state/shown_state';
+import { is_alarming, type ShownState } from '../state/shown_state';
 import { stacked, within_room } from './stacking';
 import { shown_name } from '../names';
 
@@ -36,7 +36,7 @@ export class ArmLabels {
     if (label.state.textContent !== words) label.width_px = 0;
     label.glyph.textContent = kStateGlyphs[state];
     label.state.textContent = words;
-    label.element.classList.toggle('alarmed', state === 'stopped' || state === 'fault');
+    label.element.classList.toggle('alarmed', is_alarming(state));
     label.element.classList.toggle('short', arms.length > kMostInWords);
     label.element.style.setProperty('--arm', arm_color(arms, arm));
     label.element.style.setProperty('--state', kStateColors[state]);

@@ -10,7 +10,7 @@ import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { CellArm, CellRobot } from '../server/messages';
 import { ink, kStateColors } from '../state/palette';
 import { FinishedMesh } from './finish';
-import type { ShownState } from '../state/shown_state';
+import { is_alarming, type ShownState } from '../state/shown_state';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
@@ -63,8 +63,7 @@ export class RobotModel {
     if (!mark) return;
     mark.ring.material.color.set(ink(kStateColors[state]));
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
-    const alarmed = state === 'fault' || state === 'stopped';
-    this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
+    this.skin_.emissive.set(is_alarming(state) ? 0x4a0d10 : 0x000000);
   }
 
   /** Widens the rings of the selected arms. */
