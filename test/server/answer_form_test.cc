@@ -63,7 +63,7 @@ TEST_F(AnswerForm, ExplainsThatALostControllerMustConnectFirst) {
 }
 
 TEST_F(AnswerForm, ExplainsThatAControllerMustBeStarted) {
-  const std::filesystem::path top = test::source_dir();
+  const std::filesystem::path top = source_dir();
   json cell = json::parse(read_text_file(top / "config/two_pandas_remote.json").value(), nullptr,
                           true, true);
   for (json& robot : cell["robots"]) {

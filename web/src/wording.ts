@@ -205,7 +205,7 @@ export function arm_notes({ link, link_detail, stop_cause, drives_on }: Arm): st
   return [
     ...(link === 'lost' ? [words.lost(detail)] : []),
     ...(link === 'connecting' ? [words.connecting(detail)] : []),
-    ...(has_link && stop_cause !== undefined ? [words.stop_cause(shown_text(stop_cause))] : []),
+    ...(has_link && stop_cause !== null ? [words.stop_cause(shown_text(stop_cause))] : []),
     ...(drives_on ? [] : [words.drives_off]),
   ];
 }

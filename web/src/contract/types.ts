@@ -910,6 +910,8 @@ export interface components {
             link_detail: string | null;
             /** @description False after a stop of category 0 or 1, until the arm's next motion */
             drives_on: boolean;
+            /** @description Why the arm is stopped until it is resumed; null if it is not stopped */
+            stop_cause: string | null;
             /** @description Speed override of this arm: largest share of the planned speed; absent in old recordings */
             speed_override?: number;
             /** @description Override at which the arm moves: cell's override x this arm's. The arms of one motion all move at the smallest of theirs */

@@ -11,7 +11,7 @@ import shapes from '../contract/schemas.json';
 export type { Parsed };
 export type ArmState = Schemas['ArmState'];
 export type JobState = Schemas['JobState'];
-export type Arm = Schemas['Arm'] & { stop_cause?: string };
+export type Arm = Schemas['Arm'];
 /** A reason to wait. Each of its times counts from the start of that job's own trajectory. */
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];

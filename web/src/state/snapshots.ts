@@ -59,6 +59,5 @@ export function beginning_of({ stream, at }: Pick<SequencedMessage, 'stream' | '
 
 /** Returns the arm as it was before its first motion. */
 export function at_rest(arm: Arm): Arm {
-  const { stop_cause, ...rest } = arm;
-  return { ...rest, state: 'idle', job: null, progress: 0, link: 'up', link_detail: null, drives_on: true };
+  return { ...arm, stop_cause: null, state: 'idle', job: null, progress: 0, link: 'up', link_detail: null, drives_on: true };
 }
