@@ -54,7 +54,7 @@ FAULTS = {'server_store_test': [
     ('Content-Length may occur twice', HEAD, 'if (values.size() < 2) continue;', 'if (values.size() < 2 || (FAULT && name == "Content-Length")) continue;'),
     ('Content-Length is accepted with Transfer-Encoding', FRAMING, '  if (!lengths.empty()) {', '  if (!lengths.empty() && !FAULT) {'),
     ('roles are not checked', ROUTER, 'if (role && guard_) {', 'if (role && guard_ && !FAULT) {'),
-    ('unknown query parameters are ignored', ROUTER, 'return unknown ? std::optional(', 'return unknown && !FAULT ? std::optional('),
+    ('unknown query parameters are ignored', 'server/http/message.cc', 'if (std::ranges::find(known, name) != known.end()) continue;', 'if (FAULT || std::ranges::find(known, name) != known.end()) continue;'),
     ('a client may send any number of requests', LIMITS, '  one.requests.take(1);', '  if (!FAULT) one.requests.take(1);'),
     ('a batch counts as one job', LIMITS, '  one.jobs.take(asked);', '  one.jobs.take(FAULT ? 1.0 : asked);'),
     ('every entity tag fits', 'server/http/entity_tag.cc', 'if (fits(one)) return true;', 'if (FAULT || fits(one)) return true;'),
@@ -159,10 +159,10 @@ FAULTS = {'server_store_test': [
 ], 'collision_test': [
     ('certificates take the error of another arm', ERRORS, 'all_ : by_arm_[arm.index()]', 'all_ : by_arm_[FAULT ? 0 : arm.index()]'),
 ], 'scenarios_test': [
-    ('an arm whose link is lost is not stopped', WATCH, 'if (now == Seen::lost) changes', 'if (now == Seen::lost && !FAULT) changes'),
+    ('an arm whose link is lost is not stopped', WATCH, '    if (!is_news ||', '    if ((FAULT && now == Seen::lost) || !is_news ||'),
     ('a late report stops its arm', WATCH, '|| link.state() == ArmLink::State::stale;', '|| (!FAULT && link.state() == ArmLink::State::stale);'),
-    ('an arm does not wait for its controller', WATCH, 'if (now == Seen::waiting) changes', 'if (now == Seen::waiting && !FAULT) changes'),
-    ('an arm waits for its controller for ever', WATCH, 'if (now == Seen::up && before == Seen::waiting)', 'if (!FAULT && now == Seen::up && before == Seen::waiting)'),
+    ('an arm does not wait for its controller', WATCH, '    details_[a] = link.detail();', '    if (FAULT && now == Seen::waiting) continue;\n    details_[a] = link.detail();'),
+    ('an arm waits for its controller for ever', WATCH, '    changes.push_back({ArmId{a}, kind, link.detail()});', '    if (!FAULT || kind != Kind::connected) changes.push_back({ArmId{a}, kind, link.detail()});'),
     ('an arm goes on when its link is back', 'core/executive/watching.cc', '      case Kind::back:\n', '      case Kind::back:\n        if (FAULT) resume({change.arm});\n'),
 ], 'dashboard': [
     ('a known event is processed again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
@@ -177,7 +177,7 @@ FAULTS = {'server_store_test': [
     ('a past instant shows what came later', 'web/src/state/log.ts', '?.t_s ?? Infinity) <= t_s)', '?.t_s ?? Infinity) <= (FAULT ? t_s + 2 : t_s))'),
     ('another session continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
     ('a search finds jobs with any of its words', 'web/src/jobs/filter.ts', 'wanted.every((word)', '(FAULT ? wanted.some.bind(wanted) : wanted.every.bind(wanted))((word)'),
-    ('an arm at fault is not listed for recovery', 'web/src/recovery/needs.ts', "filter((arm) => arm.state === 'fault' ||", "filter((arm) => (arm.state === 'fault' && !FAULT) ||"),
+    ('an arm at fault is not listed for recovery', 'web/src/state/shown_state.ts', "state === 'stopped' || state === 'fault');", "state === 'stopped' || (state === 'fault' && !FAULT));"),
     ('the row under the pointer moves', 'web/src/jobs/frozen_lists.ts', '  if (pointed_at === null || at < 0) return now;', '  if (FAULT || pointed_at === null || at < 0) return now;'),
 ]}
 # Groups of faults in core; if the group's program does not find a fault, the programs of the other ones run, and no server.
