@@ -177,7 +177,7 @@ FAULTS = {'server_store_test': [
     ('a past instant shows what came later', 'web/src/state/log.ts', '?.t_s ?? Infinity) <= t_s)', '?.t_s ?? Infinity) <= (FAULT ? t_s + 2 : t_s))'),
     ('another session continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
     ('a search finds jobs with any of its words', 'web/src/jobs/filter.ts', 'wanted.every((word)', '(FAULT ? wanted.some.bind(wanted) : wanted.every.bind(wanted))((word)'),
-    ('an arm at fault is not listed for recovery', 'web/src/state/shown_state.ts', "state === 'stopped' || state === 'fault');", "state === 'stopped' || (state === 'fault' && !FAULT));"),
+    ('an arm at fault is not listed for recovery', 'web/src/state/shown_state.ts', "link !== 'connecting' && (state === 'stopped' || state === 'fault')", "link !== 'connecting' && (state === 'stopped' || (state === 'fault' && !FAULT))"),
     ('the row under the pointer moves', 'web/src/jobs/frozen_lists.ts', '  if (pointed_at === null || at < 0) return now;', '  if (FAULT || pointed_at === null || at < 0) return now;'),
 ]}
 # Groups of faults in core; if the group's program does not find a fault, the programs of the other ones run, and no server.
