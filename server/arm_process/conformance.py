@@ -8,185 +8,14 @@ HAZARD: the first arm of the robot moves its first joint by 0.2 rad from where i
 Prints a line for each check. Exit 0: all passed.
 """
 import argparse
+import copy
 import json
 import pathlib
 import re
-import select
-import socket
 import sys
 import time
-import uuid
 
-SWING = 0.2  # rad or m
-PATIENCE_S = 20.0  # for an event; a busy machine is slow
-MOVING = ("moving", "braking")
-
-
-class Broken(Exception):
-    """The driver breaks the protocol."""
-
-
-def expect(holds, what):
-    if not holds:
-        raise Broken(what)
-
-
-class Refused(Broken):
-    """The driver sent an error."""
-
-
-class Motion:
-    """A motion of the arm's first joint from rest to rest and its command."""
-
-    def __init__(self, terms, positions, slower=1.0):
-        self.terms, self.begin = terms, positions
-        first = terms[0]
-        # A quintic from rest to rest has at most 1.875 d/T velocity and 5.774 d/T^2 acceleration.
-        least_s = max(1.875 * SWING / first["velocity"], (5.774 * SWING / first["acceleration"]) ** 0.5)
-        self.duration = round(max(1.2 * least_s, 0.8) * slower * 1e9)
-        t = self.duration / 1e9
-        away = SWING if abs(positions[0]) < SWING else -SWING * positions[0] / abs(positions[0])
-        self.rows = [[position, 0, 0, 0, 0, 0] for position in positions]
-        self.rows[0] = [positions[0], 0, 0, 10 * away / t**3, -15 * away / t**4, 6 * away / t**5]
-
-    def at(self, progress):
-        t = progress / 1e9
-        return [sum(c * t**k for k, c in enumerate(row)) for row in self.rows]
-
-    def follow(self, start=0, authority=None, start_at=None):
-        half = self.duration // 2  # two pieces, so that a seam is passed
-        t = half / 1e9
-        shifted = [[sum(row[k] * choose(k, j) * t ** (k - j) for k in range(j, 6)) for j in range(6)] for row in self.rows]
-        return {"type": "follow", "start_at_ns": start_at, "from_ns": start, "joints": self.terms,
-                "authority_ns": self.duration if authority is None else authority,
-                "pieces": [{"duration_ns": half, "coefficients": self.rows},
-                           {"duration_ns": self.duration - half, "coefficients": shifted}]}
-
-
-def choose(n, k):
-    result = 1
-    for i in range(k):
-        result = result * (n - i) // (i + 1)
-    return result
-
-
-class Server:
-    """The server's end of a connection."""
-
-    def __init__(self, endpoint, hello, session=None, welcome=True, **changes):
-        self.hello = {**hello, "session": session or str(uuid.uuid4()), **changes}
-        self.arm, self.data, self.report, self.reports = hello["arms"][0], b"", None, 0
-        self.motion, self.error, self.beat_at, self.number, self.silent = None, None, 0.0, 0, False
-        self.socket = connect(endpoint)
-        self.send(self.hello)
-        try:
-            self.welcome = self.next("welcome" if welcome else "error")
-        except Refused:  # the driver may need a moment to notice the end of the connection before
-            time.sleep(0.2)
-            self.socket, self.data = connect(endpoint), b""
-            self.send(self.hello)
-            self.welcome = self.next("welcome")
-        if welcome:
-            self.until(lambda report: True, "a report")
-            self.number = self.report["acknowledged"]
-
-    def close(self):
-        self.socket.close()
-
-    def send(self, message):
-        self.socket.sendall(json.dumps(message).encode() + b"\n")
-
-    def next(self, kind):
-        """Returns the next message of this kind; answers heartbeats and checks reports."""
-        end = time.monotonic() + PATIENCE_S
-        while time.monotonic() < end:
-            if not self.silent and time.monotonic() > self.beat_at:
-                self.beat_at = time.monotonic() + self.hello["timeout_s"] / 5
-                if kind not in ("welcome", "error"):
-                    self.send({"type": "heartbeat", "time_ns": time.monotonic_ns()})
-            line, newline, rest = self.data.partition(b"\n")
-            if not newline:
-                if select.select([self.socket], [], [], 0.01)[0]:
-                    chunk = self.socket.recv(1 << 20)
-                    expect(chunk, f"the driver closed the connection before {kind}")
-                    self.data += chunk
-                continue
-            self.data = rest
-            message = json.loads(line)
-            if message["type"] == "feedback" and message["arm"] == self.arm["name"]:
-                self.check(message)
-            if message["type"] == kind and message.get("arm", self.arm["name"]) == self.arm["name"]:
-                return message
-            if message["type"] == "error":
-                raise Refused(f"refused: {message.get('pointer')}: {message.get('detail')}")
-        raise Broken(f"no {kind} within {PATIENCE_S} s")
-
-    def check(self, report):
-        last, self.report = self.report, report
-        self.reports += 1
-        expect(len(report["positions"]) == len(self.arm["joints"]), "a report lacks positions")
-        if last:
-            expect(report["sequence"] > last["sequence"], "sequence does not grow")
-            expect(report["time_ns"] >= last["time_ns"], "time_ns runs backwards")
-            expect(report["acknowledged"] >= last["acknowledged"], "acknowledged falls")
-            if last["phase"] in MOVING and report["phase"] in MOVING + ("stopped", "finished"):
-                expect(report["commanded_ns"] >= last["commanded_ns"], "moves backwards on its path")
-        expect(report["measured_ns"] <= report["commanded_ns"], "measured progress is ahead of commanded progress")
-        if report["phase"] in MOVING + ("stopped", "finished"):
-            expect(report["commanded_ns"] <= report["authority_ns"],
-                   f"passed its authority: {report['commanded_ns']} > {report['authority_ns']}")
-        if self.motion and report["phase"] in MOVING + ("stopped", "finished"):
-            on_path = [self.motion.at(report[which]) for which in ("measured_ns", "commanded_ns")]
-            for joint, position in enumerate(report["positions"]):
-                ends = sorted(q[joint] for q in on_path)
-                off = max(ends[0] - position, position - ends[1])
-                expect(off < 0.02, f"joint {joint} is {off:.4f} off its path")
-
-    def until(self, holds, what):
-        end = time.monotonic() + PATIENCE_S
-        while time.monotonic() < end:
-            if holds(self.next("feedback")):
-                return self.report
-        raise Broken(f"waited in vain for {what}; the last report: {self.report}")
-
-    def command(self, message, answers="acknowledged"):
-        """Sends a command and waits until it is acknowledged; `answers`: or "rejected"."""
-        self.number += 1
-        number = self.number
-        self.send({"arm": self.arm["name"], "number": number, **message})
-        report = self.until(lambda said: said["acknowledged"] >= number, "an acknowledgement of " + message["type"])
-        rejected = report["rejected"] == number
-        expect(rejected == (answers == "rejected"),
-               f"{message['type']} was {'rejected: ' + report['detail'] if rejected else 'not rejected'}")
-        return report
-
-    def swing(self, slower=1.0, **how):
-        self.until(lambda report: report["phase"] not in ("waiting", *MOVING), "the end of an earlier motion")
-        self.motion = Motion(self.arm["joints"], self.report["positions"], slower)
-        self.command(self.motion.follow(**how))
-        return self.motion
-
-    def phase(self, *phases):
-        return self.until(lambda report: report["phase"] in phases, " or ".join(phases))
-
-    def halfway(self, share=0.3):
-        return self.until(lambda report: report["commanded_ns"] > share * self.motion.duration, "progress")
-
-    def stays_at_rest(self):
-        still = self.report["commanded_ns"], self.report["phase"]
-        for _ in range(30):
-            report = self.next("feedback")
-            expect((report["commanded_ns"], report["phase"]) == still, f"moves without a command: {report}")
-
-
-def connect(endpoint):
-    kind, _, place = endpoint.partition(":")
-    if kind == "unix":
-        made = socket.socket(socket.AF_UNIX)
-        made.connect(place)
-        return made
-    host, _, port = place.rpartition(":")
-    return socket.create_connection((host, int(port)))
+from server_end import Broken, Motion, Server, expect
 
 
 # ---- Checks. Each begins with a new session; `new(...)` makes a connection. ----
@@ -200,24 +29,64 @@ def check_welcome_keeps_the_promises(new):
         expect(server.welcome[promise] <= server.hello[promise], f"{promise} is longer than the cell file's")
 
 
+def expect_refusal(new, pointer, **changes):
+    for _ in range(5):
+        server = new(welcome=False, **changes)
+        place = server.welcome["pointer"]
+        server.ends()
+        if place == pointer or place != "/session":
+            break
+        time.sleep(0.2)  # the driver may need a moment to notice the end of the connection before
+    expect(place.startswith(pointer) and server.welcome["detail"], f"the error names {place!r}, not {pointer}")
+
+
+def expect_other_terms_refused(new, change):
+    """`change` changes the terms of the last arm."""
+    arms = copy.deepcopy(new.hello["arms"])
+    change(arms[-1])
+    expect_refusal(new, "/arms", arms=arms)
+
+
+def check_reports_in_time(new):
+    server = new()
+    times = [server.next("feedback")["time_ns"] for _ in range(101)]
+    gaps = sorted(after - before for before, after in zip(times, times[1:]))
+    usual = gaps[len(gaps) // 4] / 1e9  # a busy machine delays the others
+    expect(usual < 1.5 * server.hello["feedback_period_s"], f"a report every {usual:.4f} s is too few")
+
+
 def check_refuses_another_version(new):
-    server = new(welcome=False, protocol=99)
-    expect(server.welcome["pointer"] == "/protocol" and server.welcome["detail"], "the error names no place")
+    expect_refusal(new, "/protocol", protocol=99)
+
+
+def check_refuses_another_robot(new):
+    expect_refusal(new, "/robot", robot="not_" + new.hello["robot"])
+
+
+def check_refuses_other_arms_or_joints(new):
+    expect_other_terms_refused(new, lambda arm: arm.update(name="not_" + arm["name"]))
+    expect_refusal(new, "/arms", arms=[*new.hello["arms"], {**new.hello["arms"][0], "name": "one_more"}])
+    expect_other_terms_refused(new, lambda arm: arm["joints"][-1].update(name="no_joint"))
+    expect_other_terms_refused(new, lambda arm: arm["joints"].pop())
+
+
+def check_refuses_higher_limits(new):
+    for limit in ("velocity", "acceleration", "brake"):
+        expect_other_terms_refused(
+            new, lambda arm, limit=limit: arm["joints"][-1].update({limit: 2 * arm["joints"][-1][limit]}))
 
 
 def check_refuses_a_second_server(new):
     first = new()
-    second = new(welcome=False)
-    expect(second.welcome["pointer"] == "/session" and second.welcome["detail"], "the error names no place")
+    expect_refusal(new, "/session")
     first.swing()
     first.phase("finished")
 
 
 def check_answers_heartbeats_with_its_clock(new):
     server = new()
-    first, second = server.next("heartbeat"), server.next("heartbeat")
-    passed = second["controller_time_ns"] - first["controller_time_ns"]
-    expect(passed > 0 and first["time_ns"] < second["time_ns"], "a clock stands still")
+    first, second = server.deliver(), server.deliver()
+    expect(first < second, "its clock stands still")
 
 
 def check_follows_to_the_goal(new):
@@ -241,16 +110,24 @@ def check_starts_at_the_time_and_not_before(new):
 def check_ignores_repeats_and_gaps(new):
     server = new()
     motion = server.swing(authority=0)
-    follow = {**motion.follow(), "arm": server.arm["name"], "number": server.number}
-    server.send(follow)  # a repeat, with other content
-    server.send({"type": "extend", "arm": server.arm["name"], "number": server.number + 5,
-                 "authority_ns": motion.duration})
+    for number in (server.number, server.number + 2):
+        server.send({"type": "extend", "arm": server.arm["name"], "number": number, "authority_ns": motion.duration})
+    server.deliver()
     for _ in range(30):
         report = server.next("feedback")
         expect(report["acknowledged"] == server.number, "acknowledged a repeat or a gap")
         expect(report["commanded_ns"] == 0, "obeyed a repeat or a gap")
     server.command({"type": "extend", "authority_ns": motion.duration})
     server.phase("finished")
+
+
+def check_keeps_the_limits_from_rest_to_rest(new):
+    server = new()  # it checks the times between rests
+    motion = server.swing(authority=0)
+    for share in (0.5, 1.0):
+        end = int(share * motion.duration)
+        server.command({"type": "extend", "authority_ns": end})
+        server.until(lambda said, end=end: said["commanded_ns"] == end and said["at_rest"], "a rest")
 
 
 def check_rests_at_its_authority(new):
@@ -278,11 +155,8 @@ def check_raises_an_authority_too_close_for_a_brake(new):
 
 def check_brakes_on_the_path_and_continues(new):
     server = new()
-    motion = server.swing()
-    at = server.halfway()["commanded_ns"]
-    server.command({"type": "brake", "category": 2})
-    report = server.phase("stopped")
-    expect(report["at_rest"] and at <= report["commanded_ns"] < motion.duration, "not at rest on its path")
+    motion, _, _ = server.brake_in_motion()
+    expect(server.report["at_rest"], "not at rest on its path")
     server.stays_at_rest()
     expect(server.report["drives_on"], "category 2 switches the drives off")
     server.command({"type": "extend", "authority_ns": motion.duration})
@@ -291,17 +165,23 @@ def check_brakes_on_the_path_and_continues(new):
     server.phase("finished")
 
 
+def check_brakes_as_strongly_as_it_promises(new):
+    server = new()
+    motion, told, rest = server.brake_in_motion()
+    before, progress = max((report["time_ns"], report["commanded_ns"]) for report in server.reports
+                           if report["time_ns"] <= told)
+    free = told - before + 1e9 * (server.welcome["reaction_s"] + server.welcome["feedback_period_s"])
+    most = free + 1.1 * max(motion.braking_distance(progress), motion.braking_distance(progress + free))
+    expect(rest - progress <= most, f"rests after {(rest - progress) / 1e9:.3f} s of progress, "
+                                    f"promised {most / 1e9:.3f} s")
+
+
 def check_says_where_a_brake_ends(new):
     server = new()
-    server.swing(slower=2.0)
-    server.halfway()
-    server.command({"type": "brake", "category": 2})
-    said = {server.report["rests_at_ns"]} if "rests_at_ns" in server.report else set()
-    while server.report["phase"] == "braking":
-        if "rests_at_ns" in server.next("feedback") and server.report["phase"] == "braking":
-            said.add(server.report["rests_at_ns"])
-    rest = server.report["commanded_ns"]
-    expect(all(abs(rest - place) < 0.02 * server.motion.duration for place in said), f"said {said}, rests at {rest}")
+    _, _, rest = server.brake_in_motion()
+    said = {report["rests_at_ns"] for report in server.reports
+            if report["phase"] == "braking" and "rests_at_ns" in report}
+    expect(all(abs(rest - place) < 5_000_000 for place in said), f"said {said}, rests at {rest}")
 
 
 def check_switches_the_drives_off(new):
@@ -357,11 +237,11 @@ def check_brakes_when_the_connection_ends(new):
 
 def check_brakes_without_heartbeats(new):
     server = new()
-    server.swing(slower=3.0)
+    server.swing(slower=3.0 + 2.0 * server.hello["timeout_s"])
     server.halfway(0.1)
     server.silent = True
-    report = server.until(lambda said: said["at_rest"], "a rest")
-    expect(report["phase"] == "stopped", f"is {report['phase']}, not stopped")
+    server.until(lambda said: said["at_rest"], "a rest")
+    expect(server.report["phase"] == "stopped", f"is {server.report['phase']}, not stopped")
     server.silent = False
     server.stays_at_rest()
 
@@ -382,13 +262,29 @@ def check_ends_the_connection_after_a_bad_line(new):
     server.swing(slower=2.0)
     server.halfway(0.1)
     server.socket.sendall(b'{"type": "extend", "arm":\n')
-    try:
-        while True:
-            server.next("nothing")
-    except (Broken, OSError) as error:
-        expect("closed" in str(error) or "refused" in str(error) or isinstance(error, OSError), str(error))
-    again = new(session=server.hello["session"])
-    again.phase("stopped")
+    server.ends()
+    new(session=server.hello["session"]).phase("stopped")
+
+
+def check_ends_the_connection_after_a_wrong_message(new):
+    server = new()
+    follow = Motion(server.arm["joints"], server.report["positions"]).follow()
+    extend = {"type": "extend", "authority_ns": 1}
+    for wrong in ({"type": "no_type"}, {**extend, "no_member": 1}, {"type": "extend"}, {**extend, "arm": "no_arm"},
+                  {**follow, "pieces": [{**piece, "no_member": 1} for piece in follow["pieces"]]}):
+        server = new(session=server.hello["session"])
+        server.send({"arm": server.arm["name"], "number": server.number + 1, **wrong})
+        try:
+            server.ends()
+        except Broken:
+            raise Broken(f"keeps the connection after {wrong}") from None
+
+
+def check_refuses_a_hello_with_wrong_members(new):
+    for hello in ({key: new.hello[key] for key in new.hello if key != "cell"}, {**new.hello, "no_member": 1}):
+        server = new(greets=False)
+        server.send(hello)
+        server.ends()
 
 
 def check_takes_or_rejects_a_speed(new):
@@ -397,15 +293,23 @@ def check_takes_or_rejects_a_speed(new):
     server.send({"type": "set_speed", "arm": server.arm["name"], "number": server.number, "share": 0.5})
     report = server.until(lambda said: said["acknowledged"] >= server.number, "an acknowledgement")
     if report["rejected"] == server.number:
-        expect(report["detail"], "a rejection has no reason")
-        return
-    motion = server.swing()
-    begin = server.until(lambda said: said["commanded_ns"] > 0.2 * motion.duration, "progress")
-    end = server.until(lambda said: said["commanded_ns"] > 0.8 * motion.duration, "progress")
+        return expect(report["detail"], "a rejection has no reason")
+    server.swing()
+    begin, end = server.halfway(0.2), server.halfway(0.8)
     rate = (end["commanded_ns"] - begin["commanded_ns"]) / (end["time_ns"] - begin["time_ns"])
     expect(rate < 0.55, f"moves at {rate:.2f} of the planned rate, not at 0.5")
-    server.phase("finished")
+    for _ in range(10):  # on a busy machine, a command may come too late
+        server.command({"type": "set_speed", "share": 1.0})
+        server.swing()
+        server.halfway()
+        server.command({"type": "set_speed", "share": 0.0})
+        if server.until(lambda said: said["at_rest"], "a rest")["phase"] == "moving":
+            break
+    else:
+        raise Broken("does not rest on its path at speed 0")
+    server.stays_at_rest()
     server.command({"type": "set_speed", "share": 1.0})
+    server.phase("finished")
 
 
 CHECKS = {re.sub("^check_", "", name): check for name, check in list(globals().items()) if name.startswith("check_")}
@@ -420,6 +324,7 @@ def run(endpoint, hello, names):
             opened.append(Server(endpoint, hello, **how))
             return opened[-1]
 
+        new.hello = hello
         try:
             CHECKS[name](new)
             print("ok      ", name, flush=True)
@@ -428,7 +333,7 @@ def run(endpoint, hello, names):
             print("FAILED  ", name, "-", repr(error) if not isinstance(error, Broken) else error, flush=True)
         for server in opened:
             server.close()
-    print(f"{len(names) - failures} passed, {failures} failed")
+    print(f"{len(names) - failures} passed, {failures} failed", flush=True)
     return failures
 
 

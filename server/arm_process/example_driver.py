@@ -1,209 +1,53 @@
 #!/usr/bin/env python3
 """An example of a robot driver for Armloom: a simulated robot that follows its commands exactly.
 
-    example_driver.py unix:/tmp/left.sock '{"left": [0, -1.2, 0, -2.6, 0, 1.6, 0.785, 0]}'
-    example_driver.py tcp:127.0.0.1:4000
+    armloom arm --cell CELL --robot left --hello > left.json
+    example_driver.py unix:/tmp/left.sock left.json '{"left": [0, -1.2, 0, -2.6, 0, 1.6, 0.785, 0]}'
 
-The second argument gives the positions at the start: by arm, those of its joints, then of its gripper. It needs the standard library only. PROTOCOL.md describes the protocol. To drive a real robot, replace
-`Arm.positions` by measured positions, and send `Arm.path.positions(Arm.at)` to the robot in each cycle.
+The second argument describes the robot: its name, arms, joints and limits. The third argument gives the positions at the
+start: for each arm, those of its joints, then of its gripper; without it, all are zero. PROTOCOL.md describes the protocol;
+example_arm.py is the simulated arm. Both files need the standard library only.
 """
-import bisect
 import json
 import os
+import pathlib
 import select
 import socket
 import sys
 import time
 
+from example_arm import Arm
+
 PROTOCOL = 1
-GRID_S = 0.005  # step of the table of decelerations
-DECELERATION_MAX = 50.0  # of the rate, in 1/s; the path bounds it only where it moves
 LINE_MAX = 32 << 20
+UNSENT_MAX = 1 << 20
+CATCH_UP_MAX_S = 0.05  # if a cycle is later, the simulated arm stands still for this time
+COMMAND = {"type", "arm", "number"}
+MEMBERS = {
+    "hello": {"type", "protocol", "session", "cell", "robot", "arms", "start_tolerance_rad", "reaction_s",
+              "feedback_period_s", "timeout_s"},
+    "heartbeat": {"type", "time_ns"},
+    "follow": COMMAND | {"start_at_ns", "from_ns", "authority_ns", "joints", "pieces"},
+    "extend": COMMAND | {"authority_ns"},
+    "brake": COMMAND | {"category"},
+    "release": COMMAND,
+    "set_speed": COMMAND | {"share"},
+}
+ARM, JOINT, PIECE = {"name", "joints"}, {"name", "velocity", "acceleration", "brake"}, {"duration_ns", "coefficients"}
+LIMITS = JOINT - {"name"}
 
 
-class Path:
-    """A trajectory q(s), with the strongest deceleration of the rate r = ds/dt that the joints permit."""
-
-    def __init__(self, command):
-        self.pieces = command["pieces"]
-        self.joints = [joint["name"] for joint in command["joints"]]
-        self.starts = [0]
-        for piece in self.pieces:
-            if len(piece["coefficients"]) != len(self.joints) or piece["duration_ns"] <= 0:
-                raise ValueError("a piece needs a duration and one row of coefficients per joint")
-            self.starts.append(self.starts[-1] + piece["duration_ns"])
-        self.duration = self.starts[-1]
-        limits = [(joint["acceleration"], joint["brake"]) for joint in command["joints"]]
-        steps = max(1, int(self.duration / 1e9 / GRID_S))
-        self.grid_ns = self.duration / steps
-        found = [self.limits_at(int(k * self.grid_ns), limits) for k in range(steps + 1)]
-        self.rises = [min(found[k][0], found[k + 1][0]) for k in range(steps)]
-        self.falls = [min(found[k][1], found[k + 1][1]) for k in range(steps)]
-        # The integral of the deceleration: a brake from rate r at s ends where it has grown by r^2 / 2.
-        self.energy = [0.0]
-        for fall in self.falls:
-            self.energy.append(self.energy[-1] + fall * self.grid_ns / 1e9)
-
-    def piece_at(self, at):
-        number = min(max(bisect.bisect_right(self.starts, at) - 1, 0), len(self.pieces) - 1)
-        return self.pieces[number]["coefficients"], (min(at, self.duration) - self.starts[number]) / 1e9
-
-    def positions(self, at):
-        rows, t = self.piece_at(at)
-        return dict(zip(self.joints, (sum(c * t**k for k, c in enumerate(row)) for row in rows)))
-
-    def limits_at(self, at, limits):
-        """The joints permit |q' s'' + q'' r^2| <= limit; returns the bounds of s'' for r <= 1."""
-        rows, t = self.piece_at(at)
-        rise, fall = DECELERATION_MAX, DECELERATION_MAX
-        for row, (acceleration, brake) in zip(rows, limits):
-            first = abs(sum(k * row[k] * t ** (k - 1) for k in range(1, 6)))
-            second = abs(sum(k * (k - 1) * row[k] * t ** (k - 2) for k in range(2, 6)))
-            if first > 1e-9:
-                rise = min(rise, max(acceleration - second, 0.02 * acceleration) / first)
-                fall = min(fall, max(brake - second, 0.02 * brake) / first)
-        return rise, fall
-
-    def cell(self, at):
-        return min(int(at / self.grid_ns), len(self.falls) - 1)
-
-    def energy_at(self, at):
-        k = self.cell(at)
-        return self.energy[k] + self.falls[k] * (at - k * self.grid_ns) / 1e9
-
-    def rest_after(self, at, rate):
-        """Returns where a brake from this rate ends."""
-        wanted = self.energy_at(at) + rate**2 / 2
-        k = min(bisect.bisect_right(self.energy, wanted) - 1, len(self.falls) - 1)
-        rest = k * self.grid_ns + (wanted - self.energy[k]) / self.falls[k] * 1e9
-        return min(int(rest) + 1, self.duration)
-
-
-class Arm:
-    UNDER_WAY = ("waiting", "moving", "braking")
-
-    def __init__(self, name, joints, positions, tolerance):
-        self.name, self.joints, self.positions, self.tolerance = name, joints, list(positions), tolerance
-        self.sequence, self.drives_on, self.share = 0, True, 1.0
-        self.begin_session()
-
-    def begin_session(self):
-        self.acknowledged, self.rejected, self.detail = 0, 0, ""
-        self.drop()
-
-    def drop(self):
-        self.path, self.phase, self.rate = None, "idle", 0.0
-        self.at = self.authority = 0
-        self.switches_off = False
-
-    def obey(self, command):
-        if command["number"] != self.acknowledged + 1:
-            return  # a repeated command, or one after a gap
-        self.acknowledged = command["number"]
-        why = getattr(self, command["type"])(command)
-        if why:
-            self.rejected, self.detail = self.acknowledged, why
-            if command["type"] == "follow" and self.phase not in self.UNDER_WAY:
-                self.phase = "fault"
-
-    # ---- Commands; each returns why it is rejected ----
-
-    def follow(self, command):
-        if self.phase in self.UNDER_WAY:
-            return "the arm is in motion"
-        try:
-            path = Path(command)
-        except (ValueError, OverflowError) as error:
-            return str(error)
-        if not 0 <= command["from_ns"] <= path.duration:
-            return f"progress {command['from_ns']} ns is outside the trajectory"
-        begins = path.positions(command["from_ns"])
-        if not any(joint in begins for joint in self.joints):
-            return "the trajectory moves no joint of the arm"
-        for joint, position in zip(self.joints, self.positions):
-            away = abs(begins.get(joint, position) - position)
-            if not away <= self.tolerance:
-                return f"{joint} is {away:.6f} from the trajectory"
-        self.path, self.phase, self.rate = path, "waiting", 0.0
-        self.at, self.authority = command["from_ns"], max(command["authority_ns"], command["from_ns"])
-        self.start_at, self.detail, self.drives_on, self.switches_off = command["start_at_ns"], "", True, False
-
-    def extend(self, command):
-        if self.path is None:
-            return "there is no motion"
-        if self.phase in self.UNDER_WAY:
-            self.authority = max(command["authority_ns"], self.path.rest_after(self.at, self.rate))
-
-    def brake(self, command):
-        category = command["category"]
-        if category == 0 and self.phase in ("moving", "braking"):
-            self.phase, self.rate, self.drives_on = "fault", 0.0, False
-            self.detail = "the drives were switched off in motion"
-            return
-        self.switches_off = category < 2
-        if self.phase == "waiting":
-            self.phase = "stopped"
-        elif self.phase == "moving" and self.at < self.path.duration:
-            self.phase = "braking"
-        if self.switches_off and self.phase not in self.UNDER_WAY:
-            self.drives_on = False
-
-    def release(self, command):
-        if self.phase in self.UNDER_WAY:
-            return "the arm is in motion"
-        self.drop()
-
-    def set_speed(self, command):
-        self.share = command["share"]
-
-    # ---- Each control cycle ----
-
-    def tick(self, now, period_s):
-        if self.phase == "waiting" and now >= (self.start_at or 0):
-            self.phase = "moving"
-            if self.at == 0:  # the path itself begins at rest
-                self.rate = min(self.share, self.rate_max())
-        elif self.phase in ("moving", "braking"):
-            self.advance(period_s)
-        if self.path and self.phase != "fault":
-            now_at = self.path.positions(self.at)
-            self.positions = [now_at.get(joint, old) for joint, old in zip(self.joints, self.positions)]
-
-    def rate_max(self):
-        """Returns the largest rate from which a brake still ends at the authority."""
-        if self.authority >= self.path.duration:
-            return 1.0  # the path itself ends at rest
-        left = self.path.energy_at(self.authority) - self.path.energy_at(self.at)
-        return min(1.0, (2 * max(left, 0.0)) ** 0.5)
-
-    def advance(self, period_s):
-        k = self.path.cell(self.at)
-        rise, fall = self.path.rises[k] * period_s, self.path.falls[k] * period_s
-        wanted = 0.0 if self.phase == "braking" else min(self.share, self.rate_max())
-        rate = min(max(wanted, self.rate - fall), self.rate + rise)
-        end = min(self.authority, self.path.duration)
-        step = int((self.rate + rate) / 2 * period_s * 1e9)
-        self.at, self.rate = min(self.at + step, end), rate
-        if end - self.at <= rate * period_s * 1e9 and (end == self.path.duration or rate <= fall):
-            self.at = end
-        if self.at == end:
-            self.rate = 0.0
-        if self.at == self.path.duration:
-            self.phase = "finished"
-        elif self.rate == 0.0 and self.phase == "braking":
-            self.phase = "stopped"
-        if self.switches_off and self.phase not in self.UNDER_WAY:
-            self.drives_on = False
-
-    def report(self, now):
-        self.sequence += 1
-        rests_at = {"rests_at_ns": min(self.path.rest_after(self.at, self.rate), max(self.authority, self.at))
-                    } if self.phase == "braking" else {}
-        return {"type": "feedback", "arm": self.name, "sequence": self.sequence, "time_ns": now,
-                "acknowledged": self.acknowledged, "rejected": self.rejected, "phase": self.phase,
-                "commanded_ns": self.at, "measured_ns": self.at, "authority_ns": self.authority, **rests_at,
-                "positions": self.positions, "detail": self.detail, "drives_on": self.drives_on,
-                "at_rest": self.rate == 0.0 and (self.phase != "moving" or self.at == self.authority or not self.share)}
+def parse(line):
+    """Returns the message. Raises ValueError or KeyError if its type, a member, or the lack of a member is an error."""
+    message = json.loads(line)
+    parts = [(message, MEMBERS[message["type"]])]
+    parts += [(arm, ARM) for arm in message.get("arms", [])]
+    parts += [(joint, JOINT) for owner in (message, *message.get("arms", [])) for joint in owner.get("joints", [])]
+    parts += [(piece, PIECE) for piece in message.get("pieces", [])]
+    for part, members in parts:
+        if set(part) != members:
+            raise ValueError(f"{message['type']} has wrong members: {sorted(set(part) ^ members)}")
+    return message
 
 
 class Peer:
@@ -211,7 +55,7 @@ class Peer:
 
     def __init__(self, connection):
         connection.setblocking(False)
-        self.socket, self.data, self.since = connection, b"", time.monotonic()
+        self.socket, self.data, self.unsent, self.since = connection, b"", b"", time.monotonic()
 
     def messages(self):
         """Returns the messages that have arrived. Raises ConnectionError or ValueError when the connection must end."""
@@ -224,17 +68,23 @@ class Peer:
         if len(self.data) > LINE_MAX:
             raise ValueError("the line is too long")
         *lines, self.data = self.data.split(b"\n")
-        return [json.loads(line) for line in lines]
+        return [parse(line) for line in lines]
 
     def send(self, *messages):
-        data = b"".join(json.dumps(message).encode() + b"\n" for message in messages)
-        if self.socket.send(data) < len(data):
+        self.unsent += b"".join(json.dumps(message).encode() + b"\n" for message in messages)
+        try:
+            self.unsent = self.unsent[self.socket.send(self.unsent):]
+        except BlockingIOError:
+            pass
+        if len(self.unsent) > UNSENT_MAX:
             raise ConnectionError("the server does not read")
 
 
 class Driver:
-    def __init__(self, listening, begins):
-        self.listening, self.begins, self.arms, self.strangers = listening, begins, {}, []
+    def __init__(self, listening, robot, begins):
+        self.listening, self.robot, self.strangers = listening, robot, []
+        self.arms = {arm["name"]: Arm(arm["name"], [joint["name"] for joint in arm["joints"]], begins.get(arm["name"]))
+                     for arm in robot["arms"]}
         self.server = self.session = None
         self.timeout_s, self.period_s, self.heard_at, self.silent = 1.0, 0.01, 0.0, False
 
@@ -254,9 +104,11 @@ class Driver:
             if self.server and self.server.socket in ready:
                 self.attempt(self.hear)
             self.greet(ready)
-            if time.monotonic() >= due:
-                due = max(due + self.period_s, time.monotonic())
-                self.attempt(self.cycle)
+            now = time.monotonic()
+            due = max(due, now - CATCH_UP_MAX_S)
+            while due <= now:
+                self.attempt(lambda due=due: self.cycle(round(due * 1e9)))
+                due += self.period_s
 
     def attempt(self, what):
         try:
@@ -299,16 +151,14 @@ class Driver:
             return refuse("/protocol", f"this driver speaks version {PROTOCOL} of the protocol")
         if self.server and hello["session"] != self.session:
             return refuse("/session", "another server is connected")
-        # A driver of a real robot checks here that robot, joints and limits are its own.
+        for pointer, detail in self.objections(hello):
+            return refuse(pointer, detail)
         if self.server:
             self.server.socket.close()
         self.brake("a server connects")
-        if hello["session"] != self.session:
-            for terms in hello["arms"]:
-                joints = [joint["name"] for joint in terms["joints"]]
-                begin = self.begins.get(terms["name"], [0.0] * len(joints))
-                arm = self.arms.setdefault(
-                    terms["name"], Arm(terms["name"], joints, begin, hello["start_tolerance_rad"]))
+        for arm in self.arms.values():
+            arm.tolerance = hello["start_tolerance_rad"]
+            if hello["session"] != self.session:
                 arm.begin_session()
         self.server, self.session = peer, hello["session"]
         self.timeout_s, self.period_s = hello["timeout_s"], hello["feedback_period_s"]
@@ -316,6 +166,20 @@ class Driver:
         peer.send({"type": "welcome", "protocol": PROTOCOL, "robot": hello["robot"], "reaction_s": self.period_s,
                    "feedback_period_s": self.period_s,
                    "arms": [{"name": arm.name, "joints": arm.joints} for arm in self.arms.values()]})
+
+    def objections(self, hello):
+        """Yields where the hello does not fit the robot, and why."""
+        if hello["robot"] != self.robot["robot"]:
+            yield "/robot", f"this is robot {self.robot['robot']}"
+        names = [[(arm["name"], [joint["name"] for joint in arm["joints"]]) for arm in of["arms"]]
+                 for of in (hello, self.robot)]
+        if names[0] != names[1]:
+            yield "/arms", f"the robot's arms and joints are {names[1]}"
+            return
+        for a, (asked, own) in enumerate(zip(hello["arms"], self.robot["arms"])):
+            for j, (wanted, limits) in enumerate(zip(asked["joints"], own["joints"])):
+                if any(wanted[limit] > limits[limit] for limit in LIMITS):
+                    yield f"/arms/{a}/joints/{j}", f"the limits of {limits['name']} are {limits}"
 
     def hear(self):
         for message in self.server.messages():
@@ -325,8 +189,7 @@ class Driver:
             else:
                 self.arms[message["arm"]].obey(message)
 
-    def cycle(self):
-        now = time.monotonic_ns()
+    def cycle(self, now):
         for arm in self.arms.values():
             arm.tick(now, self.period_s)
         if self.server:
@@ -350,9 +213,10 @@ def listen(endpoint):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
     try:
-        Driver(listen(sys.argv[1]), json.loads(sys.argv[2]) if len(sys.argv) == 3 else {}).run()
+        begins = json.loads(sys.argv[3]) if len(sys.argv) == 4 else {}
+        Driver(listen(sys.argv[1]), parse(pathlib.Path(sys.argv[2]).read_text()), begins).run()
     except KeyboardInterrupt:
         pass

@@ -69,9 +69,8 @@ void RobotHost::run(const std::function<bool()>& ends) {
     const auto now = Wall::now();
     if (now - due > kCatchUpMax) {
       slip_ += now - due;
-      log_({LogLine::Level::warning,
-            "the control loop was late: the arm lost this time",
-            {{"late_ms", static_cast<std::int64_t>((now - due) / milliseconds(1))}}});
+      log_({LogLine::Level::warning, "the control loop was late by " + ms_text(now - due) +
+                                         ": the arm stood still for this time"});
       if (server_ && now - due > timeout_) brake_all();
       due = now;
     }

@@ -119,24 +119,26 @@ void print_shapes(const std::vector<ShapeReport>& report) {
 
 std::string millimeters(const PromiseReport::Distance& distance) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << 1000.0 * distance.home_m << " mm at home, at most "
-       << 1000.0 * distance.max_m << " mm";
+  text << std::fixed << std::setprecision(1) << 1000.0 * distance.home_m << " mm (at home; at most "
+       << 1000.0 * distance.max_m << " mm)";
   return text.str();
 }
 
 void print_promises(const Cell& cell, const PromiseReport& report) {
   const Arm& arm = cell.arm(report.arm);
   const ControllerDescription& promised = cell.robots[arm.robot.index()].controller;
-  std::cout << "promises of arm " << arm.name << ":\n"
-            << "  tracking error " << report.tracking_error << " rad (m): inflates the arm by "
-            << millimeters(report.inflation) << '\n'
+  std::cout << "promises of arm " << arm.name << " (smaller is better):\n"
+            << "  tracking error " << report.tracking_error << " rad (m): adds "
+            << millimeters(report.inflation) << " of clearance around the arm\n"
             << "  reaction " << to_seconds(promised.reaction)
-            << " s: one joint at full speed stops in " << std::round(1e3 * report.stopping_s) / 1e3
-            << " s and " << millimeters(report.stopping) << '\n'
+            << " s: if one joint moves at full speed, the arm's farthest point stops after "
+            << std::round(1e3 * report.stopping_s) / 1e3 << " s and "
+            << millimeters(report.stopping) << '\n'
             << "  feedback every " << to_seconds(promised.feedback_period) << " s, lost after "
-            << to_seconds(promised.feedback_timeout) << " s: authority reaches "
+            << to_seconds(promised.feedback_timeout) << " s: the server grants "
             << to_seconds(report.horizon)
-            << " s beyond the stopping distance, synchronous arms lead by up to "
+            << " s of path more than the arm needs to stop; in a motion of several arms, one arm "
+               "may be ahead by "
             << to_seconds(report.lead) << " s\n";
 }
 

@@ -9,7 +9,7 @@ namespace armloom {
 
 // Finds contacts of all robots and objects of a cell with MuJoCo. Shares the model with
 // core/collision and core/audit, and the convex pieces of meshes with core/collision. The pieces
-// fill some hollows of concave meshes, so two bodies there may be reported although they are
+// fill some concave parts of meshes, so two bodies there may be reported although they are
 // centimeters apart. Confined to one thread at a time.
 class ContactOracle {
  public:

@@ -135,7 +135,7 @@ const PlantState& Plant::step(Duration period, const Eigen::VectorXd& position,
   return state_;
 }
 
-// Friction alone would let a loaded joint creep.
+// With friction alone, a loaded joint would move slowly.
 void Plant::lock_brakes(Duration period) {
   for (std::size_t i = 0; i < references_.size(); ++i) {
     if (drive_on_[static_cast<std::size_t>(row_of_driven_[i])] || mujoco_->is_locked(i)) continue;

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr Duration kSample = 5ms;           // between audited states
 constexpr Duration kOperator = 100ms;       // between two looks of the operator
 constexpr Duration kReacts = 2s;            // of the operator
-constexpr Duration kWaits = 5s;             // for an arm to strike
+constexpr Duration kWaits = 5s;             // for an arm in which the fault can begin
 constexpr Duration kRemovesAfter = 15s;     // a fault that stops no arm
 constexpr Duration kPatience = 240s;        // after the last job
 constexpr std::size_t kStatesMax = 20'000;  // that are audited at once
@@ -149,7 +149,7 @@ class FaultRun {
     jobs_ = std::make_unique<RandomJobs>(
         *cell_, random_, [this]() -> Executive& { return executive(); }, !plan.faulty);
     simulation_->tick();
-    strikes_at_ = at(from_seconds(random_.uniform(1.0, 0.5 * to_seconds(plan.jobs_for))));
+    begins_at_ = at(from_seconds(random_.uniform(1.0, 0.5 * to_seconds(plan.jobs_for))));
   }
 
   [[nodiscard]] Executive& executive() { return simulation_->executive(); }
@@ -161,7 +161,7 @@ class FaultRun {
     while (now() < end && !is_done()) {
       const TimePoint until = std::min(now() + kOperator, end);
       if (now() < at(plan_.jobs_for) && now() >= next_job_) submit();
-      if (plan_.faulty && now() >= strikes_at_) strike();
+      if (plan_.faulty && now() >= begins_at_) begin_fault();
       operate();
       while (now() < until) {
         simulation_->pass_over_rest(until);
@@ -201,7 +201,7 @@ class FaultRun {
   [[nodiscard]] bool is_done() {
     if (now() < at(plan_.jobs_for)) return false;
     return now() >= at(plan_.jobs_for + kPatience) ||
-           (strikes_at_ == TimePoint::max() && present_.empty() && executive().all_ended());
+           (begins_at_ == TimePoint::max() && present_.empty() && executive().all_ended());
   }
 
   void submit() {
@@ -223,9 +223,9 @@ class FaultRun {
     return names;
   }
 
-  // Strikes where it hurts, if there is such an arm within some seconds: an arm that waits at its
-  // authority runs away; other faults strike arms in motion.
-  void strike() {
+  // Begins the fault where it has the largest effect: `runaway` in an arm that waits at its
+  // authority, others in a moving arm. If there is none for kWaits, in any arm.
+  void begin_fault() {
     const auto& list = listed_faults();
     if (next_fault_ == nullptr) {
       next_fault_ = plan_.fault != nullptr ? plan_.fault : &list[random_.index(list.size())];
@@ -233,7 +233,7 @@ class FaultRun {
     const ListedFault& fault = *next_fault_;
     const bool runs_away = fault.faults.front().kind == ArmFault::Kind::runaway;
     std::vector<std::string> arms = arms_in(runs_away ? ArmState::paused : ArmState::moving);
-    if (arms.empty() && now() < strikes_at_ + kWaits) return;
+    if (arms.empty() && now() < begins_at_ + kWaits) return;
     if (arms.empty()) arms = arms_in(ArmState::moving);
     if (arms.empty()) arms.push_back(jobs_->arms().front().name);
     const std::string arm = arms[random_.index(arms.size())];
@@ -246,8 +246,8 @@ class FaultRun {
       present_.push_back(*id);
     }
     removes_at_ = now() + kRemovesAfter;
-    strikes_at_ = now() + from_seconds(random_.uniform(5.0, 40.0));
-    if (plan_.fault != nullptr || strikes_at_ > at(plan_.jobs_for)) strikes_at_ = TimePoint::max();
+    begins_at_ = now() + from_seconds(random_.uniform(5.0, 40.0));
+    if (plan_.fault != nullptr || begins_at_ > at(plan_.jobs_for)) begins_at_ = TimePoint::max();
   }
 
   // Resumes stopped arms, and removes the faults then.
@@ -276,7 +276,7 @@ class FaultRun {
   std::unique_ptr<Witness> witness_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<RandomJobs> jobs_;
-  TimePoint next_job_{}, strikes_at_{}, removes_at_ = TimePoint::max();
+  TimePoint next_job_{}, begins_at_{}, removes_at_ = TimePoint::max();
   std::optional<TimePoint> stopped_since_;
   std::vector<std::uint64_t> present_;  // faults
   const ListedFault* next_fault_ = nullptr;

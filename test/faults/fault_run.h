@@ -19,7 +19,7 @@ struct FaultRunPlan {
   std::uint64_t seed = 1;
   RandomWorld world = RandomWorld::sliders;
   std::string policy = "coordinated";
-  // The fault that strikes one arm. If null, faults of the list strike all the time.
+  // The fault that occurs in one arm. If null, faults of the list occur all the time.
   const ListedFault* fault = nullptr;
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off
@@ -47,7 +47,7 @@ struct FaultRunResult {
   std::uint64_t fingerprint = 0;  // of the true positions and the events
 };
 
-// Runs jobs while faults strike. An operator resumes arms two seconds after they were stopped, and
+// Runs jobs while faults occur. An operator resumes arms two seconds after they were stopped, and
 // removes the faults then. The true positions, every 5 ms, are audited (core/audit).
 [[nodiscard]] FaultRunResult run_with_faults(const FaultRunPlan& plan);
 

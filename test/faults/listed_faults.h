@@ -11,7 +11,7 @@ namespace armloom {
 // every fault: no contact, and every job ends or states what it waits for.
 struct ListedFault {
   std::string name;
-  // Strike one arm at the same time; `arm` and `at` are empty.
+  // Occur in one arm at the same time; `arm` and `at` are empty.
   std::vector<FaultRequest> faults;
   std::string expected;
 };

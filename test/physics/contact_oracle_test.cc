@@ -77,7 +77,7 @@ TEST(ContactOracle, OmitsObjectsThatALinkMayTouch) {
 constexpr double kBand_m = 5e-4;
 
 // Returns the distance of the convex pieces of two links. MuJoCo knows only these, and those of a
-// concave mesh fill some of its hollows.
+// mesh fill some of its concave parts.
 double distance_of_pieces(const Cell& cell, const Configuration& q, const std::string& a,
                           const std::string& b) {
   LinkPoses X_WL;

@@ -265,8 +265,8 @@ TEST(Plant, BrakesStopAndHoldAnArmWithoutDrives) {
   EXPECT_LT(until_rest, 200);
   const Eigen::VectorXd rest = plant.state().position;
   for (int i = 0; i < 5000; ++i) (void)plant.step(kPeriod, to, Eigen::VectorXd::Zero(to.size()));
-  std::printf("at rest from %.2f rad/s after %d ms; creep in 5 s: %.3g rad\n", speed, until_rest,
-              (plant.state().position - rest).cwiseAbs().maxCoeff());
+  std::printf("at rest from %.2f rad/s after %d ms; slow motion in 5 s: %.3g rad\n", speed,
+              until_rest, (plant.state().position - rest).cwiseAbs().maxCoeff());
   EXPECT_LT((plant.state().position - rest).cwiseAbs().maxCoeff(), 2e-5);
 
   const Eigen::VectorXd held = plant.state().position;

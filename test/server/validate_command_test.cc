@@ -42,11 +42,12 @@ TEST_F(ValidateCommand, PrintsWhatEachPromiseCosts) {
                                      {{"tracking_error_rad", 0.01}, {"feedback_timeout_s", 1}});
   const Outcome outcome = run("validate --cell " + cell.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("tracking error 0.01 rad (m): inflates the arm by "),
-            std::string::npos);
+  EXPECT_NE(outcome.out.find("tracking error 0.01 rad (m): adds "), std::string::npos);
   EXPECT_NE(outcome.out.find("tracking error 0.001 rad"), std::string::npos) << "the other robot";
-  EXPECT_NE(outcome.out.find("lost after 1 s: authority reaches 1.121 s"), std::string::npos);
-  EXPECT_NE(outcome.out.find("lost after 0.1 s: authority reaches 0.27 s"), std::string::npos);
+  EXPECT_NE(outcome.out.find("lost after 1 s: the server grants 1.121 s of path more"),
+            std::string::npos);
+  EXPECT_NE(outcome.out.find("lost after 0.1 s: the server grants 0.27 s of path more"),
+            std::string::npos);
 }
 
 TEST_F(ValidateCommand, MarksDefaultLimits) {
