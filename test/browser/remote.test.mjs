@@ -13,7 +13,7 @@ import { ask, counts, go_to, kBinary, kRoot, label_of, path_for, reads, send_thr
 const folder = mkdtempSync(join(tmpdir(), 'armloom-remote-'));
 const kCell = join(folder, 'cell.json');
 writeFileSync(kCell, readFileSync(join(kRoot, 'config/two_pandas_remote.json'), 'utf8')
-  .replaceAll('"feedback_timeout_s": 0.2', '"feedback_timeout_s": 2')  // a busy machine must not lose a link
+  .replaceAll('"feedback_timeout_s": 0.2', '"feedback_timeout_s": 10')  // a busy machine must not lose a link
   .replaceAll('unix:/tmp/armloom-', `unix:${folder}/`).replaceAll('"../models/', `"${kRoot}/models/`));
 const robots = new Map();
 const start = (name) => robots.set(name, spawn(kBinary, ['arm', '--cell', kCell, '--robot', name, '--listen', `unix:${folder}/${name}.sock`], { stdio: 'ignore' }));

@@ -47,7 +47,7 @@ function FaultForm({ app, arms, faults }: { app: App; arms: readonly string[]; f
     if (request !== null) await app.actions.ask(kText.command.inject(kind, arm), faults.inject(request));
   };
   return (
-    <form data-test="fault-form" onSubmit={(event) => { event.preventDefault(); void inject(); }}>
+    <form class="fault-form" data-test="fault-form" onSubmit={(event) => { event.preventDefault(); void inject(); }}>
       <p class="hint">{kWords.hint}</p>
       <label>{kWords.arm} <select value={arm} data-test="fault-arm" onChange={(event) => set_arm(event.currentTarget.value)}>
         {arms.map((name) => <option key={name} value={name}>{name}</option>)}
@@ -72,7 +72,7 @@ function Listed({ app, faults }: { app: App; faults: FaultList }) {
   return (
     <>
       <h3>{faults.is_whole ? kWords.present : kWords.injected}</h3>
-      <ul data-test="injected-faults">
+      <ul class="fault-list" data-test="injected-faults">
         {faults.all.map((fault) => (
           <li key={fault.id}>{fault_in_words(fault)} <button class="small" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void remove(fault.id)}>{kWords.remove}</button></li>
         ))}
