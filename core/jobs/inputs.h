@@ -149,8 +149,9 @@ struct Interrupt {
 // The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
-using Input = std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                           Resume, Located, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
+using Input =
+    std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
+                 Resume, Located, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

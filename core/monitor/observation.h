@@ -36,10 +36,10 @@ struct ArmObservation {
   double speed = 1.0;    // speed override: largest share of the planned rate
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
-  bool brakes = false;                          // it comes to rest and has no other command
+  bool brakes = false;  // it comes to rest and has no other command
   // When its controller reported that it obeys a brake, if no motion was commanded since.
   std::optional<TimePoint> braking_since = {};
-  std::optional<Duration> rests_at = {};        // while it brakes: the progress where it will rest
+  std::optional<Duration> rests_at = {};  // while it brakes: the progress where it will rest
   // Distance from the path at the start of the motion (rad, m), for which it was certified.
   double off_path = 0.0;
   ReportTime reported{};    // of the last report
