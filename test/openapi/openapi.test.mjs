@@ -403,7 +403,7 @@ test('speed is changed, faults are injected and removed', async () => {
 // Calls the server directly, because the proxy answers most of these requests itself.
 const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
 test('every operation refuses malformed and foreign requests', async () => {
-  const args = {id: 'x', name: 'x'};
+  const args = {id: 'x', name: 'left'};
   const large = 'x'.repeat(20 * 1024);
   for (const {path: template, method, operation} of contract.operations()) {
     const listed = operation.responses;
@@ -424,6 +424,7 @@ test('every operation refuses malformed and foreign requests', async () => {
       await straight(400, method, template, {args, raw: '{"a": '});
     }
   }
+  await call(202, 'POST', `${v1}/resume`);  // a faulty stop stops
 });
 
 // Every operation with a role answers 401 without a token.
