@@ -71,7 +71,9 @@ test('An arm whose controller was killed does not look as if it moves, and is re
 test('Drives that are off are shown', { timeout: 300_000 }, async () => {
   await go_to(page, '#/arm/right');
   await ask(page, 'POST', '/arms/right/stop?category=1');
-  await reads(page.locator('[data-test=page-arm] [data-test=arm-note]'), /^Drives off$/);
+  const notes = page.locator('[data-test=page-arm] [data-test=arm-note]');
+  await reads(notes.first(), /^Stopped: operator$/);
+  await reads(notes.last(), /^Drives off$/);
   await page.screenshot(path_for('drives-off-dark'));
 });
 
