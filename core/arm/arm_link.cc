@@ -53,6 +53,14 @@ void ArmLink::command(ArmCommand::Brake brake) {
            std::holds_alternative<ArmCommand::Extend>(what);
   });
   if (is_unsent) motion_->is_dropped = true;
+  // When they are repeated, commands that are not acknowledged must not move the arm.
+  for (ArmCommand& command : sent_) {
+    if (auto* follow = std::get_if<ArmCommand::Follow>(&command.what)) {
+      follow->authority = follow->from;
+    } else if (std::holds_alternative<ArmCommand::Extend>(command.what)) {
+      command.what = brake;
+    }
+  }
   waiting_.emplace_back(brake);
   interpret();
 }

@@ -25,9 +25,11 @@ namespace armloom {
 // report so far counts as undelayed.
 //
 // Commands that would let the arm move wait until the link is up. A brake is sent in any state. It
-// drops the commands that wait: a motion that was never sent counts as stopped at its start. After
-// a new connection, commands that the controller has not acknowledged are lost; the speed override
-// is commanded again, before any motion.
+// drops the commands that wait: a motion that was never sent counts as stopped at its start.
+// Commands that are repeated after a brake do not let the arm move: an extend is repeated as a
+// brake, a follow with an authority at its start. After a new connection, commands that the
+// controller has not acknowledged are lost; the speed override is commanded again, before any
+// motion.
 class ArmLink {
  public:
   enum class State { connecting, up, stale, lost };

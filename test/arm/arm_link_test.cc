@@ -216,6 +216,23 @@ TEST_F(Link, RepeatsCommandsThatAreNotAcknowledged) {
   EXPECT_EQ(controller.sent.size(), 4u);
 }
 
+TEST_F(Link, RepeatsNoCommandThatLetsTheArmMoveAfterABrake) {
+  come_up();
+  follow();
+  link.command(ArmCommand::Extend{2s});
+  link.flush(controller);
+  link.command(ArmCommand::Brake{});
+  link.flush(controller);
+  controller.sent.clear();
+  pass(51ms);
+  ASSERT_EQ(controller.sent.size(), 3U);
+  const auto* repeated = std::get_if<ArmCommand::Follow>(&controller.sent[0].what);
+  ASSERT_NE(repeated, nullptr);
+  EXPECT_EQ(repeated->authority, 0s);
+  EXPECT_TRUE(std::holds_alternative<ArmCommand::Brake>(controller.sent[1].what));
+  EXPECT_EQ(controller.sent[1].number, 2U);
+}
+
 TEST_F(Link, KeepsAuthorityBackWhileItIsStale) {
   come_up();
   follow();
