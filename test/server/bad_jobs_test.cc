@@ -36,6 +36,7 @@ class BadJobOverHttp : public test::RunningServer,
 
 TEST_P(BadJobOverHttp, IsRefusedAndLeavesNothingBehind) {
   start(10.0);
+  for (const char* arm : {"left", "right"}) until_arm(arm, "link", "up");
   const json arms_before = get("/api/v1/arms").json();
   const auto answer = post("/api/v1/jobs", GetParam().body(), GetParam().content_type);
   EXPECT_EQ(answer.status, GetParam().status) << answer.body;

@@ -69,6 +69,11 @@ class RunningServer : public ::testing::Test {
       return job["state"] == state;
     });
   }
+  // Waits, for a bounded time, until a member of the arm has the value.
+  void until_arm(const std::string& arm, const char* member, const char* value) {
+    for (int i = 0; i < 10'000 && get("/api/v1/arms/" + arm).json()[member] != value; ++i) {
+    }
+  }
   Answer post(const std::string& target, const std::string& body,
               const std::string& type = "application/json") {
     return request(port(), "POST", target, body, type);
