@@ -46,6 +46,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
   }
   if (trajectory->arms().size() > 1) pass_on_speed(trajectory->arms());
   for (ArmId arm : trajectory->arms()) {
+    ++arms_[arm.index()].starts;
     // An arm that stands ahead of its siblings lets them catch up.
     const auto stands_at = motion.stands_at.find(arm);
     const Duration from =

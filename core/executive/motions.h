@@ -55,6 +55,8 @@ class Motions {
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return arms_[arm.index()].advances; }
+  // Returns how often the arm was dispatched, resumes included.
+  [[nodiscard]] std::uint64_t starts(ArmId arm) const { return arms_[arm.index()].starts; }
   [[nodiscard]] bool all_at_rest() const;
   // Returns true if all arms rest, and stay at rest until the next command.
   [[nodiscard]] bool all_settled() const;
@@ -93,6 +95,7 @@ class Motions {
     std::unique_ptr<ArmController> controller;
     ArmLink link;
     bool advances = false;
+    std::uint64_t starts = 0;
   };
   template <class Command>
   void command(ArmId arm, Command what) {

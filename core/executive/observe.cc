@@ -28,6 +28,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         // Not the guard's: the guard raises it to the measured progress.
         .authority = position.at_rest ? feedback.measured_progress
                                       : std::max(motions.granted(arm), feedback.authority),
+        .starts = motions.starts(arm),
         .speed = motions.speed(arm),
         .rests = rests,
         .brakes = brakes,

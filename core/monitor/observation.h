@@ -32,8 +32,9 @@ struct ArmObservation {
   TrajectoryPtr motion = {};  // null if the arm has none
   Duration measured{};        // progress on the motion
   Duration commanded{};
-  Duration authority{};  // largest permitted progress
-  double speed = 1.0;    // speed override: largest share of the planned rate
+  Duration authority{};      // largest permitted progress
+  std::uint64_t starts = 0;  // counts starts and resumes: before each, the arm rested
+  double speed = 1.0;        // speed override: largest share of the planned rate
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
   bool brakes = false;  // it comes to rest and has no other command

@@ -55,6 +55,7 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       state.rested = false;
       continue;
     }
+    if (seen.arms[a].starts != state.last.starts) begin_motion(arm, seen);
     check_feedback(arm, seen, found);
     if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
       check_path(arm, seen, found);
@@ -89,6 +90,13 @@ void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding findi
   // The link of an arm without reports stops it (core/executive/link_watch.h).
   if (finding.kind != Kind::late_feedback) finding.stops = {arm};
   found.push_back(std::move(finding));
+}
+
+// The arm rested before it started, also if no period saw it.
+void PremiseCheck::begin_motion(ArmId arm, const Observation& seen) {
+  ArmState& state = arms_[arm.index()];
+  for (Violation& known : state.violations) known.has_rested = known.holds;
+  if (!state.rested) begin_rest(arm, seen);
 }
 
 // ---- Feedback ----

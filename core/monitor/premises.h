@@ -86,6 +86,7 @@ class PremiseCheck {
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  void begin_motion(ArmId arm, const Observation& seen);
   void begin_rest(ArmId arm, const Observation& seen);
   static void set_rest(ArmState& state, const Configuration& measured);
   void judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,

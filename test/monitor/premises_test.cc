@@ -35,6 +35,17 @@ TEST(Premises, ReportJointValueAndLimitOfADeviation) {
   EXPECT_THAT(w.look(), IsEmpty()) << "reported once";
 }
 
+TEST(Premises, ReportADeviationAgainAfterARestBetweenTwoPeriods) {
+  Watched w;
+  w.start();
+  w.on_path(10ms);
+  w.seen.measured[1] += 0.0015;
+  ASSERT_THAT(w.look(), SizeIs(1));
+  ASSERT_THAT(w.look(), IsEmpty());
+  ++w.arm().starts;
+  EXPECT_THAT(w.look(), SizeIs(1)) << "it does not stay without a stop";
+}
+
 TEST(Premises, AcceptALateArm) {
   Watched w;
   w.start();
