@@ -6,7 +6,7 @@
 Two Pandas move all the time. Noise on the measured positions of each arm (a fault of 20 ms) makes the monitor stop it
 before it is resumed, again and again. Meanwhile half of the subscribers read all events over WebSockets and half over server-sent events, and busy
 processes load the cores. Figures are the server's own metrics: quantiles are the upper limits of histogram buckets.
-Exit code 1 if there were too few stops, a subscriber was lost, or 99.9 % of the stops took more than two periods.
+Exit code 1 if there were too few stops, a job failed, a subscriber was lost, or 99.9 % of the stops took more than two periods.
 """
 import argparse
 import json
@@ -140,15 +140,16 @@ def measure(server, asked):
     gaps, longest_ms = empty.end()
     reaction, slowest = quantiles(before, after, REACTION)
     change = lambda name: after[name] - before[name]
+    failed = sum(arm.failed for arm in arms)
     print(f"monitor period {1e3 * PERIOD_S:g} ms; {stops(after):.0f} stops in {lasted:.0f} s, "
-          f"{sum(arm.failed for arm in arms)} jobs did not succeed")
+          f"{failed} jobs did not succeed")
     print(f"reaction: {reaction}, longest {1e3 * after['armloom_monitor_reaction_worst_seconds']:.2f} ms")
     print(f"periods begin late by: {quantiles(before, after, LATE)[0]}; "
           f"{change('armloom_monitor_missed_periods_total'):.0f} missed; control overruns "
           f"{change(OVERRUNS):.0f} (an empty loop: {gaps}, longest gap {longest_ms:.1f} ms)")
     print(f"{len(read)} subscribers, {lost} lost; each read {read[0] / lasted / 1024:.1f} to "
           f"{read[-1] / lasted / 1024:.1f} KiB/s; {change('armloom_frames_dropped_total'):.0f} frames dropped")
-    return stops(after) >= asked.stops and lost == 0 and slowest <= 2 * PERIOD_S
+    return stops(after) >= asked.stops and failed == 0 and lost == 0 and slowest <= 2 * PERIOD_S
 
 
 def main():
