@@ -124,6 +124,7 @@ Row run_hours(const Options& options) {
   for (std::uint64_t seed = options.first; all.simulated_s < 3600 * options.hours; ++seed) {
     FaultRunPlan plan = plan_of(seed, options);
     plan.jobs_for = std::chrono::minutes(30);
+    plan.open_max = 40;
     const Row row = run(plan, options);
     all += row;
     print("seed " + std::to_string(seed) + ", " + plan.policy + ", " +

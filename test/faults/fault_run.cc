@@ -33,6 +33,13 @@ class Witness final : public Observer {
     mix(static_cast<std::uint64_t>(event.time.time_since_epoch().count()));
     mix(event.body.index());
     if (verbose_) print(event);
+    if (const auto* job = std::get_if<JobView>(&event.body)) {
+      if (is_terminal(job->state)) {
+        open.erase(job->key);
+      } else {
+        open.insert(job->key);
+      }
+    }
     if (const auto* arm = std::get_if<ArmView>(&event.body)) jobs_[arm->name] = arm->job;
     if (std::holds_alternative<GuardEvent>(event.body)) ++refusals;
     if (const auto* found = std::get_if<MonitorEvent>(&event.body)) see(event.time, *found);
@@ -77,6 +84,7 @@ class Witness final : public Observer {
   void watch(Watched watched) { watch_.emplace(std::move(watched)); }
 
   std::set<std::string> faulty;  // names
+  std::set<std::string> open;    // keys of jobs that have not ended
   std::vector<FaultRunResult::MonitorStop> stops;
   std::size_t stops_of_faulty = 0;
   std::uint64_t refusals = 0, fingerprint = 14695981039346656037U;
@@ -206,6 +214,7 @@ class FaultRun {
 
   void submit() {
     next_job_ = now() + from_seconds(random_.uniform(0.1, 1.6));
+    if (witness_->open.size() >= plan_.open_max) return;
     JobRequest request = jobs_->any();
     const JobRequest copy = request;
     const auto accepted = executive().submit(std::move(request));

@@ -24,7 +24,8 @@ struct FaultRunPlan {
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off
   bool verbose = false;   // prints jobs and alerts to stderr
-  Duration jobs_for = std::chrono::seconds(20);  // jobs are submitted for so long
+  Duration jobs_for = std::chrono::seconds(20);  // jobs are submitted for so long, ...
+  std::size_t open_max = 1000;                   // ... while at most so many have not ended
 };
 
 struct FaultRunResult {
