@@ -18,7 +18,7 @@ struct FaultRequest {
   std::string arm;
   ArmFault::Kind kind = ArmFault::Kind::stall;
   std::optional<TimePoint> at;      // nullopt: now
-  std::optional<Duration> lasting;  // nullopt: until removed; `fault` strikes only once
+  std::optional<Duration> lasting;  // nullopt: until removed; `fault` occurs once
   double value = 0.0;
 };
 

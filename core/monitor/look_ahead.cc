@@ -57,6 +57,10 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
   const std::optional<double> rate =
       rate_of(now, elapsed, promises_of(controller).until_told(), pace);
   const bool keeps_rate = rate && *rate >= kStands;
+  // Reports that are later than promised show an earlier state, and commands may be as late.
+  const Duration late =
+      std::max(Duration{}, now.feedback_age - promises_of(controller).until_told());
+  const Duration reaction = controller.reaction + 2 * late;
   const double highest = keeps_rate ? std::min(1.0, *rate * (1.0 + kRateChange)) : 1.0;
   Duration brakes_to{}, goes_to{};
   if (now.motion) {
@@ -67,7 +71,7 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     // Progress at the highest rate until the brake takes effect. The way of a brake grows with the
     // square of the rate.
     const Duration commanded = std::max(now.commanded, now.measured);
-    const Duration way = from_seconds(highest * to_seconds(controller.reaction) +
+    const Duration way = from_seconds(highest * to_seconds(reaction) +
                                       highest * highest * to_seconds(premises.stopping_reach(arm)));
     brakes_to = now.rests ? reach.from : std::min(end, commanded + way);
     if (now.brakes && now.rests_at) {
@@ -108,8 +112,8 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
       const auto j = static_cast<Eigen::Index>(joint.index());
       const double speed =
           std::min(std::abs(off.velocity[j]), PremiseCheck::velocity_limit(*cell_, joint));
-      const double more = speed * to_seconds(controller.reaction) +
-                          speed * speed / (2.0 * cell_->joint(joint).brake);
+      const double more =
+          speed * to_seconds(reaction) + speed * speed / (2.0 * cell_->joint(joint).brake);
       reach.shift[j] = off.shift[j] + std::copysign(0.5 * more, off.velocity[j]);
       reach.error[j] = 0.5 * more;
       if (more > 0.0) result.is_still = false;
@@ -172,7 +176,10 @@ std::vector<MonitorFinding> LookAhead::check(const Observation& seen, const Prem
     for (std::uint32_t b = a + 1; b < count; ++b) {
       const ArmId other{b};
       if (reaches[a].is_still && reaches[b].is_still) continue;
-      if (!certified.certifies(arm, other)) compare(arm, other, reaches, geometry, predicted);
+      // Certificates end at the authority.
+      const bool keep = premises.keeps_authority(arm) && premises.keeps_authority(other);
+      if (keep && certified.certifies(arm, other)) continue;
+      compare(arm, other, reaches, geometry, predicted);
     }
     if (reaches[a].is_still || certified.certifies_scene(arm)) continue;
     if (auto evidence = geometry.may_meet_scene(reaches[a].going)) {

@@ -28,13 +28,14 @@ struct Options {
 };
 
 struct Row {
-  std::size_t runs = 0, contacts = 0, jobs = 0, succeeded = 0, waiting = 0, silent = 0;
+  std::size_t runs = 0, contacts = 0, possible = 0, jobs = 0, succeeded = 0, waiting = 0,
+              silent = 0;
   std::size_t stops = 0, stops_of_faulty = 0, needless = 0;  // needless: runs
   double closest_m = 1e9, simulated_s = 0.0, cpu_s = 0.0;
   std::uint64_t refusals = 0;
 
   Row& operator+=(const Row& other) {
-    runs += other.runs, contacts += other.contacts, jobs += other.jobs;
+    runs += other.runs, contacts += other.contacts, possible += other.possible, jobs += other.jobs;
     succeeded += other.succeeded, waiting += other.waiting, silent += other.silent;
     stops += other.stops, stops_of_faulty += other.stops_of_faulty, needless += other.needless;
     closest_m = std::min(closest_m, other.closest_m);
@@ -45,18 +46,19 @@ struct Row {
 
 void print_head() {
   std::printf(
-      "| fault | runs | contacts | closest mm | jobs | succeeded | waiting | silent | "
+      "| fault | runs | contacts | by faults that may touch | closest mm | jobs | succeeded | "
+      "waiting | silent | "
       "stops of faulty arms | of others | runs with needless stops | guard refusals | "
       "hours | hours per hour of processor time |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print(const std::string& name, const Row& row) {
   std::printf(
-      "| %s | %zu | %zu | %.2f | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.2f | "
+      "| %s | %zu | %zu | %zu | %.2f | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.2f | "
       "%.0f |\n",
-      name.c_str(), row.runs, row.contacts, 1000 * row.closest_m, row.jobs, row.succeeded,
-      row.waiting, row.silent, row.stops_of_faulty, row.stops, row.needless,
+      name.c_str(), row.runs, row.contacts, row.possible, 1000 * row.closest_m, row.jobs,
+      row.succeeded, row.waiting, row.silent, row.stops_of_faulty, row.stops, row.needless,
       static_cast<std::size_t>(row.refusals), row.simulated_s / 3600, row.simulated_s / row.cpu_s);
   std::fflush(stdout);
 }
@@ -65,7 +67,8 @@ Row run(const FaultRunPlan& plan, const Options& options) {
   const std::clock_t begun = std::clock();
   const FaultRunResult result = run_with_faults(plan);
   Row row{.runs = 1,
-          .contacts = result.contact ? 1U : 0U,
+          .contacts = result.contact && !result.may_touch ? 1U : 0U,
+          .possible = result.contact && result.may_touch ? 1U : 0U,
           .jobs = result.jobs,
           .succeeded = result.succeeded,
           .waiting = result.waiting,

@@ -182,6 +182,7 @@ class FaultRun {
     witness_->audit_states();
     FaultRunResult result{.jobs = submitted_,
                           .contact = witness_->contact,
+                          .may_touch = touches_may_occur(),
                           .closest_m = witness_->closest_m,
                           .guard_refusals = witness_->refusals,
                           .stops = witness_->stops,
@@ -201,6 +202,13 @@ class FaultRun {
   }
 
  private:
+  // Returns true if a fault that may touch was present at the contact.
+  [[nodiscard]] bool touches_may_occur() const {
+    return std::ranges::any_of(touching_, [this](const auto& period) {
+      const auto& contact = witness_->contact;
+      return contact && period.first <= contact->time && contact->time <= period.second;
+    });
+  }
   [[nodiscard]] bool moves(const JobView& job) {
     return std::ranges::any_of(executive().arms(), [&](const ArmView& arm) {
       return arm.job == job.key && arm.state == ArmState::moving;
@@ -247,7 +255,12 @@ class FaultRun {
     if (arms.empty()) arms.push_back(jobs_->arms().front().name);
     const std::string arm = arms[random_.index(arms.size())];
     next_fault_ = nullptr;
+    if (fault.may_touch) touching_.emplace_back(now(), TimePoint::max());
     witness_->faulty.insert(arm);
+    if (plan_.verbose) {
+      std::fprintf(stderr, "%9.3f s  fault in %s: %s\n", to_seconds(now().time_since_epoch()),
+                   arm.c_str(), fault.name.c_str());
+    }
     for (FaultRequest request : fault.faults) {
       request.arm = arm;
       const auto id = executive().faults().inject(request);
@@ -269,9 +282,13 @@ class FaultRun {
     if (any_stopped && !stopped_since_) stopped_since_ = now();
     const bool acts = stopped_since_ && now() - *stopped_since_ >= kReacts;
     if (acts || now() >= removes_at_) {
+      if (plan_.verbose && !present_.empty()) {
+        std::fprintf(stderr, "%9.3f s  faults end\n", to_seconds(now().time_since_epoch()));
+      }
       for (const std::uint64_t id : std::exchange(present_, {})) {
         (void)executive().faults().remove(id);
       }
+      for (auto& [begin, end] : touching_) end = std::min(end, now());
       removes_at_ = TimePoint::max();
     }
     if (!acts) return;
@@ -288,6 +305,8 @@ class FaultRun {
   TimePoint next_job_{}, begins_at_{}, removes_at_ = TimePoint::max();
   std::optional<TimePoint> stopped_since_;
   std::vector<std::uint64_t> present_;  // faults
+  std::vector<std::pair<TimePoint, TimePoint>>
+      touching_;  // when faults that may touch were present
   const ListedFault* next_fault_ = nullptr;
   std::size_t submitted_ = 0;
 };

@@ -23,7 +23,7 @@ struct FaultRunPlan {
   const ListedFault* fault = nullptr;
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off
-  bool verbose = false;   // prints jobs and alerts to stderr
+  bool verbose = false;   // prints jobs, alerts and faults to stderr
   Duration jobs_for = std::chrono::seconds(20);  // jobs are submitted for so long, ...
   std::size_t open_max = 1000;                   // ... while at most so many have not ended
 };
@@ -33,6 +33,7 @@ struct FaultRunResult {
   std::size_t waiting = 0;              // jobs that have not ended, but state what they wait for
   std::vector<std::string> silent;      // jobs that have not ended and do not
   std::optional<AuditFinding> contact;  // of the true positions
+  bool may_touch = false;               // ListedFault::may_touch of a fault present at the contact
   double closest_m = 1e9;               // of all pairs of arms, and arms with the scene
   std::uint64_t guard_refusals = 0;
   // Arms without a fault that the monitor stopped, but not together with a faulty arm that takes

@@ -8,12 +8,13 @@
 namespace armloom {
 
 // A fault of the campaign, and what must come of it. Besides what `expected` says, this holds for
-// every fault: no contact, and every job ends or states what it waits for.
+// every fault: no contact unless `may_touch`, and every job ends or states what it waits for.
 struct ListedFault {
   std::string name;
   // Occur in one arm at the same time; `arm` and `at` are empty.
   std::vector<FaultRequest> faults;
   std::string expected;
+  bool may_touch = false;  // stopping in time is not always possible (README.md)
 };
 [[nodiscard]] const std::vector<ListedFault>& listed_faults();
 

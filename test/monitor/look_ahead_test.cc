@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/model/promises.h"
 #include "test/monitor/two_joint_arms.h"
 
 namespace armloom {
@@ -270,7 +271,18 @@ TEST(LookAhead, LooksBeyondAnAuthorityThatIsNotKept) {
     a.on_path(0, progress);
     a.seen.arms[0].authority = 515ms;
   }
+  a.certificates.all = true;  // up to the authority
   EXPECT_THAT(a.look(), SizeIs(1));
+}
+
+TEST(LookAhead, AddsTwiceTheDelayOfLateReports) {
+  Ahead a(1);
+  a.on_path(0, 500ms);
+  const Duration promised = promises_of(a.cell->robots[0].controller).until_told();
+  a.seen.arms[0].feedback_age = promised;
+  const Duration in_time = a.goes_to(ArmId{0});
+  a.seen.arms[0].feedback_age = promised + 30ms;
+  EXPECT_EQ(a.goes_to(ArmId{0}) - in_time, 60ms);
 }
 
 TEST(LookAhead, AssumesAnArmWithoutReportsAtItsAuthority) {
