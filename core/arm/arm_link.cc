@@ -115,6 +115,12 @@ void ArmLink::send(ArmController& controller, What what) {
 
 // ---- Reports ----
 
+bool ArmLink::stopped_by_itself() const {
+  const bool is_accepted =
+      motion_ && motion_->number != 0 && heard_.acknowledged >= motion_->number;
+  return is_accepted && heard_.phase == Phase::stopped && brake_ == 0;
+}
+
 void ArmLink::exchange(ArmController& controller, TimePoint now) {
   now_ = now;
   has_news_ = false;

@@ -5,6 +5,7 @@
 
 #include "core/coordination/effort.h"
 #include "core/coordination/tracking_errors.h"
+#include "core/executive/arms_of.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -33,7 +34,9 @@ AuthorityGate::AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint pr
       motions_(motions),
       guard_(guarded_arms(*cell_), motions.measured(), std::move(present)),
       calls_(std::move(calls)),
-      jobs_(cell_->arms.size()) {}
+      jobs_(cell_->arms.size()) {
+  for (const ArmId arm : all_arms(*cell_)) guard_.forget_position(arm);
+}
 
 void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
   const auto asked = kept_.find(*std::exchange(asked_, std::nullopt));
@@ -118,12 +121,15 @@ const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
   return reports_;
 }
 
-// Tells the guard where moving arms are, and in each cycle where one of the arms at rest is.
+// Tells the guard where moving arms are, and in each cycle where one of the arms at rest is. The
+// position of an arm whose controller has not connected yet is not known.
 void AuthorityGate::see_positions() {
   looked_at_ = (looked_at_ + 1) % static_cast<std::uint32_t>(jobs_.size());
   for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
     const ArmId arm{a};
-    if (guard_.position(arm).at_rest && a != looked_at_) continue;
+    const ArmPosition& position = guard_.position(arm);
+    if (motions_.link(arm).state() == ArmLink::State::connecting) continue;
+    if (position.at_rest && position.is_known && a != looked_at_) continue;
     const ArmFeedback& feedback = motions_.feedback(arm);
     if (is_at_rest(feedback.phase)) {
       guard_.rests(arm, feedback.measured_progress, motions_.measured());

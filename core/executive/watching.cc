@@ -67,7 +67,7 @@ void Executive::Impl::watch() {
   }
   act_on(found);
   for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().rests_elsewhere(arm)) locate(arm);
+    if (watch_.premises().rests_elsewhere(arm) || scheduler_.is_lost(arm)) locate(arm);
   }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
@@ -81,16 +81,21 @@ void Executive::Impl::watch_links() {
     const std::string& arm = cell_->arm(change.arm).name;
     switch (change.kind) {
       case Kind::waits:
+        lose(change.arm);
         step(Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
         publisher_.tell(
             Alert{Alert::Level::info, arm + " waits for its controller: " + change.detail},
             clock_.now);
         break;
       case Kind::in_use:
+        lose(change.arm);
         stop({change.arm}, "its controller served another server: " + change.detail);
         break;
       case Kind::lost:
         stop({change.arm}, "link lost: " + change.detail);
+        break;
+      case Kind::stopped:
+        stop({change.arm}, "its controller stopped the arm by itself");
         break;
       case Kind::connected:
       case Kind::back:
@@ -108,13 +113,23 @@ void Executive::Impl::watch_links() {
   }
 }
 
+// Tells the scheduler that the arm may be anywhere.
+void Executive::Impl::lose(ArmId arm) {
+  std::vector<ArmId> may_meet;
+  for (const ArmId other : all_arms(*cell_)) {
+    if (other != arm && !scene_.scene()->out_of_reach(arm, other)) may_meet.push_back(other);
+  }
+  step(Unlocated{arm, std::move(may_meet)});
+}
+
 // Tells the scheduler where an arm at rest really is, if that is not where it came to rest.
 void Executive::Impl::locate(ArmId arm) {
   const ArmLink& link = execution_.motions().link(arm);
   if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
   const Eigen::VectorXd off =
       link.feedback().measured - joints_of(scheduler_.rest(), execution_.motions().joints(arm));
-  if (off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot)) return;
+  const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
+  if (is_there && !scheduler_.is_lost(arm)) return;
   step(Located{arm, link.feedback().measured});
 }
 

@@ -132,7 +132,7 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
     position.measured = std::max(position.measured, progress);
     position.authority = position.measured;
   }
-  position.at_rest = true;
+  position.at_rest = position.is_known = true;
   position.left_path = 0.0;
   for (const JointId joint : arms_[arm.index()].joints) q_[joint.value()] = measured[joint.value()];
   if (position.motion) position.off_path = off(*position.motion, arm, position.measured);
@@ -203,6 +203,7 @@ ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, F
 // not cover the arm.
 std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSide& side, ArmId arm,
                                                                const ArmPosition& position) const {
+  if (!position.is_known) return std::nullopt;
   const bool is_still = std::ranges::all_of(side.still, [&](const auto& joint) {
     const auto& [id, at] = joint;
     if (arm_of_[id.index()] && arm_of_[id.index()] != arm) return true;  // another arm's joint

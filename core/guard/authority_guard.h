@@ -20,6 +20,7 @@ struct ArmPosition {
   Duration measured{};        // progress proven by feedback
   Duration authority{};       // largest permitted progress; `measured` at rest
   bool at_rest = true;
+  bool is_known = true;    // false: it may be anywhere
   double off_path = 0.0;   // largest distance of a joint from the path, at the last rest (rad, m)
   double left_path = 0.0;  // likewise, as measured since the last rest; zero within the tolerance
 
@@ -61,6 +62,9 @@ class AuthorityGuard {
   // Reports a resting arm: its progress, and all joints of the cell.
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 
+  // The arm may be anywhere until rests() is called for it. Only a proof that it cannot meet
+  // another arm at all covers it.
+  void forget_position(ArmId arm) { positions_[arm.index()].is_known = false; }
   // Reports that a moving arm was measured at this distance from its path (rad, m). Certificates
   // for a smaller error no longer cover the arm, until it rests.
   void leaves_path(ArmId arm, double distance);

@@ -39,6 +39,7 @@ Eigen::VectorXd part_of(const Arm& arm, const Trajectory& trajectory,
 ArmRests::ArmRests(const Cell& cell, Configuration rest)
     : rest_(std::move(rest)),
       stopped_(cell.arms.size()),
+      may_meet_(cell.arms.size()),
       came_by_(cell.arms.size()),
       places_at_(cell.arms.size()) {
   if (rest_.size() != static_cast<Eigen::Index>(cell.joints.size())) {
@@ -64,6 +65,13 @@ void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& positi
   set_joints(rest_, joints_and_gripper(cell.arm(arm)), position);
   places_at_[arm.index()] = places_.of(arm, part_of(cell.arm(arm), rest_));
   came_by_[arm.index()] = nullptr;
+}
+
+std::optional<ArmId> ArmRests::unlocated_beside(ArmId arm) const {
+  for (std::uint32_t other = 0; other < may_meet_.size(); ++other) {
+    if (std::ranges::count(may_meet_[other], arm) > 0) return ArmId{other};
+  }
+  return std::nullopt;
 }
 
 void ArmRests::rest_at_goal(const WaitingLeg& leg) {

@@ -119,12 +119,18 @@ struct Resume {
   std::vector<ArmId> arms;
 };
 // An arm without authority was found at rest at `position`: it was moved while it was stopped, or
-// its controller has just connected. Ignored if the arm's job is in motion. A job that rests on its
-// path and is no longer there is replanned (MoveToStart::plan, or a goal) or fails with
-// Reason::start_mismatch.
+// its controller has just connected. Ends Unlocated. Otherwise ignored if the arm's job is in
+// motion. A job that rests on its path and is no longer there is replanned (MoveToStart::plan, or a
+// goal) or fails with Reason::start_mismatch.
 struct Located {
   ArmId arm;
   Eigen::VectorXd position;  // of Arm::joints, then Arm::gripper_joints
+};
+// The arm may be anywhere until it is located: its controller has not connected yet. Until then,
+// the arms that it could meet start nothing.
+struct Unlocated {
+  ArmId arm;
+  std::vector<ArmId> may_meet;  // other arms
 };
 // The planning scene changed. All waiting jobs are checked again. Admitted motions are checked
 // again if they move one of `arms` (arms_in_question).
@@ -151,7 +157,7 @@ struct Wake {};
 
 using Input =
     std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                 Resume, Located, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
+                 Resume, Located, Unlocated, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -20,8 +20,17 @@ std::optional<Wait> speed_wait(const State& state, const Job& job) {
 }
 
 std::optional<Wait> operator_wait(const State& state, const Job& job) {
-  auto stop = state.arms.stop_of(job);
-  return stop ? stop : speed_wait(state, job);
+  if (auto stop = state.arms.stop_of(job)) return stop;
+  for (const ArmId arm : job.trajectory->arms()) {
+    const auto other = state.arms.unlocated_beside(arm);
+    if (!other) continue;
+    const auto& stop = state.arms.stop_of(*other);
+    return Wait{.kind = Wait::Kind::stop,
+                .arm = other,
+                .detail = "the position of " + state.cell->arm(*other).name + " is not known" +
+                          (stop ? ": " + stop->cause : "")};
+  }
+  return speed_wait(state, job);
 }
 
 std::optional<Wait> held_where_it_stands(const State& state, const Record& record) {

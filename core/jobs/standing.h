@@ -11,8 +11,8 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
 // Returns the wait for a speed override of 0; nullopt if the job's arms may move.
 [[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Job& job);
-// Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, or a speed
-// override of 0. nullopt if there is none.
+// Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, another
+// arm whose position is not known, or a speed override of 0. nullopt if there is none.
 [[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Job& job);
 // Returns what an admitted job at its limit waits for; nullopt if it moves or is about to.
 [[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Record& record);

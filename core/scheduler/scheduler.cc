@@ -66,7 +66,7 @@ void take(State& state, const Stop& input) {
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
-  for (ArmId arm : input.arms) explain_again(state, arm);
+  explain_again(state, input.arms);
 }
 
 // Returns the detail of Reason::start_mismatch if the job's arm rests off its path; records how far
@@ -92,7 +92,18 @@ std::optional<std::string> left_path(const State& state, ArmId arm, Record& reco
   return std::nullopt;
 }
 
+void take(State& state, const Unlocated& input) {
+  state.arms.lose(input.arm, input.may_meet);
+  ++state.version;  // an answer that is under way shall start nothing beside this arm
+  explain_again(state, input.may_meet);
+}
+
 void take(State& state, const Located& input) {
+  const std::vector<ArmId> beside = state.arms.found(input.arm);
+  if (!beside.empty()) {
+    ++state.version;
+    explain_again(state, beside);
+  }
   const auto& queue = state.jobs.queues()[input.arm];
   Record* head = queue.empty() ? nullptr : &state.jobs.at(queue.front());
   if (head != nullptr && head->job.has_authority()) return;

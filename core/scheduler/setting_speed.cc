@@ -1,6 +1,7 @@
 #include "core/scheduler/setting_speed.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "core/jobs/standing.h"
@@ -45,17 +46,21 @@ void set_speed(State& state, const SetSpeed& input) {
     if (before.effective(arms) == state.speed.effective(arms)) continue;
     renew_clocks(state, job, before.effective(arms) == 0.0);
   }
-  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    explain_again(state, ArmId{arm});
-  }
+  std::vector<ArmId> all;
+  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) all.emplace_back(arm);
+  explain_again(state, all);
   prepare_choice(state, {});
   state.expected.spoil();
   renew_starts(state);
   compare_again(state);
 }
 
-void explain_again(State& state, ArmId arm) {
-  for (JobId id : state.jobs.queues()[arm]) {
+void explain_again(State& state, const std::vector<ArmId>& arms) {
+  std::set<JobId> jobs;
+  for (const ArmId arm : arms) {
+    jobs.insert(state.jobs.queues()[arm].begin(), state.jobs.queues()[arm].end());
+  }
+  for (const JobId id : jobs) {
     Record& record = state.jobs.at(id);
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;

@@ -13,7 +13,7 @@ void renew_clocks(const State& state, Job& job, bool rested);
 // without passing orders, all motions under way are checked again.
 void set_speed(State& state, const SetSpeed& input);
 
-// Call when jobs of the arm may have a new answer to operator_wait().
-void explain_again(State& state, ArmId arm);
+// Call when jobs of the arms may have a new answer to operator_wait().
+void explain_again(State& state, const std::vector<ArmId>& arms);
 
 }  // namespace armloom

@@ -285,6 +285,19 @@ TEST_F(Link, KnowsSinceWhenTheControllerObeysABrake) {
 }
 
 // The server side of "reconnecting never starts a motion".
+TEST_F(Link, KnowsAnArmThatItsControllerStopped) {
+  come_up();
+  follow();
+  acknowledged = 1;
+  report(Phase::moving, 10ms);
+  EXPECT_FALSE(link.stopped_by_itself());
+  report(Phase::stopped, 20ms);
+  EXPECT_TRUE(link.stopped_by_itself());
+  link.command(ArmCommand::Brake{});
+  link.flush(controller);
+  EXPECT_FALSE(link.stopped_by_itself());
+}
+
 TEST_F(Link, DropsCommandsOfABrokenConnection) {
   come_up();
   follow();

@@ -96,6 +96,16 @@ TEST_F(Guarded, AllowsAuthorityThatCertificatesCover) {
   EXPECT_FALSE(guard->position(kLeft).at_rest);
 }
 
+TEST_F(Guarded, RefusesMotionsBesideAnArmThatMayBeAnywhere) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  guard->forget_position(kThird);
+  EXPECT_EQ(why(left, 4s), std::nullopt) << "the two arms cannot meet";
+  guard->forget_position(kRight);
+  EXPECT_EQ(why(left, 4s), Why::uncertified);
+  rest(kRight, {}, 0.0);
+  EXPECT_EQ(why(left, 4s), std::nullopt);
+}
+
 TEST_F(Guarded, NeedsACertificateForTheScene) {
   take({pair(on(left), resting(kRight, 0.0))});
   const auto refusal = guard->refuses(left, {}, 1s);

@@ -1,6 +1,8 @@
 // Arms whose link to the controller is lost, and arms that are not where they came to rest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/arm/simulated_arm.h"
 #include "test/scenarios/crossing.h"
 
@@ -19,11 +21,18 @@ class RestartedArm final : public ArmController {
   [[nodiscard]] const std::vector<JointId>& joints() const override { return inner_->joints(); }
   void send(const ArmCommand& command) override {
     ++commands;
-    if (connection_.is_up) inner_->send(command);
+    last_ = command.number;
+    if (connection_.is_up) inner_->send({command.number + own_brakes_, command.what});
   }
   [[nodiscard]] const ArmFeedback* poll(TimePoint now) override {
-    return connection_.is_up ? inner_->poll(now) : nullptr;
+    const ArmFeedback* report = connection_.is_up ? inner_->poll(now) : nullptr;
+    if (report == nullptr) return nullptr;
+    report_ = *report;
+    report_.acknowledged -= std::min(report_.acknowledged, own_brakes_);
+    return &report_;
   }
+  // Brakes without a command, as a controller does that has missed the server.
+  void brake() { inner_->send({last_ + ++own_brakes_, ArmCommand::Brake{}}); }
   [[nodiscard]] ArmConnection connection() const override { return connection_; }
 
   void switch_off() { connection_ = {false, "switched off", connection_.number}; }
@@ -31,6 +40,7 @@ class RestartedArm final : public ArmController {
   void switch_on_at(double position_m) {
     inner_ =
         std::make_unique<SimulatedArm>(cell_, arm_, Eigen::VectorXd::Constant(1, position_m), 1);
+    last_ = own_brakes_ = 0;
     connection_ = {true, "", connection_.number + 1};
   }
   int commands = 0;
@@ -40,6 +50,8 @@ class RestartedArm final : public ArmController {
   ArmId arm_;
   std::unique_ptr<SimulatedArm> inner_;
   ArmConnection connection_;
+  ArmFeedback report_;
+  CommandNumber last_ = 0, own_brakes_ = 0;
 };
 
 // The crossing, under `certified`, with controllers that can be switched off.
@@ -125,6 +137,23 @@ TEST(LostLink, StartsNothingWhenItIsBack) {
   EXPECT_EQ(s.cell.job("lost").reason(), Reason::arm_fault);
 }
 
+TEST(LostLink, ArmThatItsControllerStoppedWaitsForAResume) {
+  Switched s;
+  s.cell.submit(slide("x", -1, 1, 4, "runs"));
+  s.cell.run_until(at(1s));
+  s.arms[0]->brake();
+  s.cell.run_until(at(5s));
+  EXPECT_EQ(s.arm(0).state, ArmState::stopped);
+  EXPECT_EQ(s.arm(0).stop_cause, "its controller stopped the arm by itself");
+  EXPECT_EQ(s.cell.job("runs").state, JobState::paused);
+  const double stands = s.arm(0).q.front();
+  s.cell.run_until(at(8s));
+  EXPECT_EQ(s.arm(0).q.front(), stands);
+  EXPECT_TRUE(s.executive().resume({ArmId{0}}).empty());
+  s.cell.run_to_the_end();
+  EXPECT_EQ(s.cell.job("runs").state, JobState::succeeded);
+}
+
 TEST(MovedArm, JobOnItsPathFailsWithStartMismatch) {
   Switched s;
   s.cell.submit(slide("x", -1, 1, 4, "on its path"));
@@ -196,9 +225,29 @@ TEST(FirstConnection, JobsWaitForItAndThenRunFromWhereTheArmIs) {
   EXPECT_EQ(s.cell.job("from there").state, JobState::succeeded);
 }
 
+// The arm that has not connected could be in the way.
+TEST(FirstConnection, NoArmMovesBesideAnArmThatMayBeAnywhere) {
+  Switched s(true);
+  s.cell.submit(slide("y", -1, 1, 4, "waits"));
+  s.arms[1]->switch_on_at(-1.0);
+  s.cell.run_until(at(3s));
+  EXPECT_EQ(s.arm(1).link, LinkState::up);
+  EXPECT_EQ(s.arm(1).q.front(), -1.0);
+  const JobView waiting = s.cell.job("waits");
+  ASSERT_EQ(waiting.waits_on.size(), 1U);
+  EXPECT_EQ(waiting.waits_on.front().detail,
+            "the position of x is not known: its controller has not connected: switched off");
+  s.arms[0]->switch_on_at(0.0);  // in the path
+  s.cell.run_until(at(4s));
+  EXPECT_EQ(s.arm(1).q.front(), -1.0);
+  EXPECT_EQ(s.cell.job("waits").state, JobState::backlogged);
+  EXPECT_EQ(s.cell.job("waits").waits_on.front().kind, Wait::Kind::arm);
+}
+
 TEST(FirstConnection, EndsNoStopOfTheOperator) {
   for (const bool stopped_before : {false, true}) {
     Switched s(true);
+    s.arms[0]->switch_on_at(-1.0);
     if (stopped_before) s.executive().stop({ArmId{1}}, "operator");
     s.cell.submit(slide("y", -1, 1, 4, "waits"));
     s.cell.run_until(at(1s));
@@ -217,6 +266,7 @@ TEST(FirstConnection, EndsNoStopOfTheOperator) {
 
 TEST(FirstConnection, StartsNothingOnAnArmThatServedAnotherServer) {
   Switched s(true);
+  s.arms[0]->switch_on_at(-1.0);
   s.cell.submit(slide("y", -1, 1, 4, "waits"));
   s.arms[1]->say_in_use();
   s.cell.run_until(at(1s));

@@ -284,10 +284,6 @@ OrientedDiagram MotionStore::with_itself(const Entry& own) {
                  {*links_, own.tube->geometry().self, own.tube});
 }
 
-bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
-  const std::vector<Ball>& reach = scene_->bodies().reach;
-  return armloom::out_of_reach(reach[a.index()], reach[b.index()],
-                               scene_->cell().clearances.clearance_m);
-}
+bool MotionStore::out_of_reach(ArmId a, ArmId b) const { return scene_->out_of_reach(a, b); }
 
 }  // namespace armloom

@@ -260,6 +260,11 @@ PlanningScene::PlanningScene() : bodies_(std::make_unique<Bodies>()) {}
 PlanningScene::~PlanningScene() = default;
 const Cell& PlanningScene::cell() const { return *bodies_->cell; }
 const PlanningScene::Bodies& PlanningScene::bodies() const { return *bodies_; }
+bool PlanningScene::out_of_reach(ArmId a, ArmId b) const {
+  return armloom::out_of_reach(bodies_->reach[a.index()], bodies_->reach[b.index()],
+                               bodies_->cell->clearances.clearance_m);
+}
+
 const SceneFingerprint& PlanningScene::fingerprint() const { return bodies_->fingerprint; }
 
 const std::vector<CollisionObject>& PlanningScene::objects() const { return bodies_->objects; }

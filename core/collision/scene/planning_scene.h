@@ -54,6 +54,9 @@ class PlanningScene {
   // Returns hashes of the scene's content, for certificates.
   [[nodiscard]] const SceneFingerprint& fingerprint() const;
 
+  // Returns true if the two arms, with what they hold, keep clearance_m at all their positions.
+  [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
+
   struct Bodies;  // defined in scene_bodies.h; for core/collision only
   [[nodiscard]] const Bodies& bodies() const;
 
