@@ -45,6 +45,13 @@ Response done_but_not_stored(Refusal refusal) {
   return refusal_response(refusal);
 }
 
+std::function<void(std::optional<Refusal>)> when_stored(Respond respond, Response response) {
+  return [respond = std::move(respond),
+          response = std::move(response)](std::optional<Refusal> refusal) {
+    respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
+  };
+}
+
 Response no_such(const char* what, const std::string& name) {
   return problem_response(
       {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",

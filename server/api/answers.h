@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "core/base/problem.h"
@@ -13,6 +15,10 @@ namespace armloom {
 [[nodiscard]] Response refusal_response(const Refusal& refusal);
 // Answers a command that took effect but could not be stored, for the reason in `refusal`.
 [[nodiscard]] Response done_but_not_stored(Refusal refusal);
+// Returns a function that responds with `response` when a change is stored, or that the change is
+// done, but not stored.
+[[nodiscard]] std::function<void(std::optional<Refusal>)> when_stored(Respond respond,
+                                                                      Response response);
 // Answers 404, because no `what` ("arm") has this name.
 [[nodiscard]] Response no_such(const char* what, const std::string& name);
 

@@ -154,15 +154,27 @@ void get_arm_speed(Call call) {
   call.respond(answer(200, arm_speed_format(), arms[arm->index()]));
 }
 
+// Sets the speed override of the arm, or of the cell, and responds when it is stored.
+template <class Answer>
+void set_speed(const ApiParts& parts, std::optional<ArmId> arm, SpeedShare asked,
+               const Respond& respond, Answer answer) {
+  ask_urgently(
+      parts,
+      [arm, asked, answer](Executive& executive) {
+        executive.set_speed(arm, asked.share);
+        return answer(executive);
+      },
+      [&parts, arm, asked, respond](const Response& response) {
+        if (parts.keeper == nullptr) return respond(response);
+        parts.keeper->set_speed(arm ? parts.cell->arm(*arm).name : "", asked,
+                                when_stored(respond, response));
+      });
+}
+
 void put_speed(Call call) {
   const auto set = [&parts = call.parts, respond = call.respond](const SpeedShare& asked) {
-    ask_urgently(
-        parts,
-        [asked](Executive& executive) {
-          executive.set_speed(std::nullopt, asked.share);
-          return asked;
-        },
-        [respond](const SpeedShare& now) { respond(answer(200, speed_override_format(), now)); });
+    set_speed(parts, std::nullopt, asked, respond,
+              [asked](const Executive&) { return answer(200, speed_override_format(), asked); });
   };
   read_body(call.parts, call.request, call.respond, read_speed_override, set);
 }
@@ -171,13 +183,9 @@ void put_arm_speed(Call call) {
                     respond = call.respond](const SpeedShare& asked) {
     const auto arm = parts.cell->find_arm(name);
     if (!arm) return respond(no_such_arm(parts, name));
-    ask_urgently(
-        parts,
-        [arm = *arm, asked](Executive& executive) {
-          executive.set_speed(arm, asked.share);
-          return executive.arms()[arm.index()];
-        },
-        [respond](const ArmView& view) { respond(answer(200, arm_speed_format(), view)); });
+    set_speed(parts, *arm, asked, respond, [arm = *arm](const Executive& executive) {
+      return answer(200, arm_speed_format(), executive.arms()[arm.index()]);
+    });
   };
   read_body(call.parts, call.request, call.respond, read_speed_override, set);
 }
@@ -199,7 +207,7 @@ std::vector<Route> speed_routes() {
         "and certificates hold at any override. Timeouts and aging count at the smallest override "
         "of all arms. This is no safety function: an override of 0 is not a stop.";
     put.reads = body(speed_override_format(), {{"quarter", R"({"speed_override": 0.25})"}});
-    put.refuses = {422};
+    put.refuses = {422, 507};
     put.who = Who::commander;
     put.role = Role::operate;
     return put;
@@ -218,7 +226,7 @@ std::vector<Route> speed_routes() {
   Route put_one =
       setting("/arms/{name}/speed", "setArmSpeedOverride", "Set the speed override of an arm");
   put_one.outcomes = {outcome(200, "The override that now applies", arm_speed_format())};
-  put_one.refuses = {404, 422};
+  put_one.refuses = {404, 422, 507};
   put_one.run = put_arm_speed;
   return {get, put, get_one, put_one};
 }

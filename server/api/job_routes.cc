@@ -83,10 +83,7 @@ void command_job(Call call, Command command) {
         if (!done) return respond(refused_command(parts, key, done.error()));
         if (!*done) return respond(was_changed_since(key, if_match));
         // Answers after the change is stored, because clients rely on the answer.
-        const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
-          if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
-          respond(done_but_not_stored(*std::move(refusal)));
-        };
+        const auto tell = when_stored(respond, answer(202, job_format(), **done, &parts.clock));
         parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell(std::nullopt);
       });
 }

@@ -41,10 +41,7 @@ bool is_of_cell(const ApiParts& parts, const std::string& name) {
 void respond_when_stored(const ApiParts& parts, std::vector<StoredObject> objects,
                          const Respond& respond, Response response) {
   if (parts.keeper == nullptr) return respond(std::move(response));
-  parts.keeper->change(std::move(objects),
-                       [respond, response = std::move(response)](std::optional<Refusal> refusal) {
-                         respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
-                       });
+  parts.keeper->change(std::move(objects), when_stored(respond, std::move(response)));
 }
 
 // ---- Single objects ----

@@ -136,7 +136,7 @@ FormatPtr<ArmDescription> arm_description_format() {
 FormatPtr<ControllerDescription> controller_format() {
   using Controller = ControllerDescription;
   return object<Controller>({
-      field("type", &Controller::type, one_of({"sim", "remote"}),
+      field("type", &Controller::type, controller_type_format(),
             "Kind of controller. sim: a simulated arm in the server. remote: a controller in a "
             "process of its own, for example `armloom arm`."),
       field("lag_s", &Controller::lag, seconds(Controller::lag_range),
@@ -162,6 +162,8 @@ FormatPtr<ControllerDescription> controller_format() {
 }
 
 }  // namespace
+
+FormatPtr<std::string> controller_type_format() { return one_of({"sim", "remote"}); }
 
 FormatPtr<RobotDescription> robot_format() {
   using Robot = RobotDescription;

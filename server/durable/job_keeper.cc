@@ -91,6 +91,12 @@ void JobKeeper::change(std::vector<StoredObject> objects,
                  [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 
+void JobKeeper::set_speed(std::string arm, SpeedShare speed,
+                          std::function<void(std::optional<Refusal>)> then) {
+  store_->set_speed({std::move(arm), text_of(*speed_override_format(), speed)},
+                    [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
+}
+
 void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
   store_->accept({}, [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }

@@ -12,6 +12,7 @@
 #include "core/executive/real_time_loop.h"
 #include "server/codec/wall_clock.h"
 #include "server/http/message.h"
+#include "server/messages/arm.h"
 #include "server/store/job_history.h"
 #include "server/store/job_store.h"
 
@@ -51,6 +52,10 @@ class JobKeeper final : public StartLog {
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
   // Persists changes of scene objects, all or none. Calls `then` in the same way as amend().
   void change(std::vector<StoredObject> objects, std::function<void(std::optional<Refusal>)> then);
+  // Persists the speed override of an arm, or of the cell if `arm` is "". Calls `then` in the same
+  // way as amend().
+  void set_speed(std::string arm, SpeedShare speed,
+                 std::function<void(std::optional<Refusal>)> then);
   // Calls `then` with nullopt when all earlier changes are on disk, or with the reason why they are
   // not on disk yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);

@@ -11,6 +11,7 @@
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
 #include "server/durable/damage.h"
+#include "server/messages/arm.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -67,6 +68,28 @@ std::vector<ObjectNotPutBack> put_back(std::vector<LeftObject> objects, LiveScen
   return not_done;
 }
 
+// Restores the speed overrides of the previous session. Returns what could not be restored: the
+// records, each with the reason.
+std::vector<std::pair<StoredSpeed, std::string>> put_back(const std::vector<LeftSpeed>& speeds,
+                                                          const Cell& cell, Executive& executive) {
+  std::vector<std::pair<StoredSpeed, std::string>> not_done;
+  for (const auto& [speed, is_damaged] : speeds) {
+    const auto arm = cell.find_arm(speed.arm);
+    const std::string what = "the speed override of " +
+                             (speed.arm.empty() ? "the cell" : "arm \"" + speed.arm + '"') +
+                             " cannot be restored: ";
+    const auto read = read_speed_override(*speed.text);
+    if (is_damaged) {
+      not_done.emplace_back(speed, what + "its record in the data folder is damaged");
+    } else if (!read) {
+      not_done.emplace_back(speed, what + problem_sentence("", read.error().front()));
+    } else if (arm || speed.arm.empty()) {
+      executive.set_speed(arm, read->share);
+    }
+  }
+  return not_done;
+}
+
 // Returns the job's last published view. If the stored view is damaged and no longer JSON, returns
 // a view that contains only the job's id.
 nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
@@ -107,6 +130,7 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
   restart.objects_ = left.objects;
+  restart.speeds_ = left.speeds;
   restart.stopped_arms_ = left.stopped_arms;
   restart.knows_stops_ =
       !left.stops_are_damaged && !left.stops_are_unwritten && !left.is_behind && !left.is_unmarked;
@@ -205,6 +229,12 @@ std::string Restart::summary() const {
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
   if (!damage_.is_none()) executive.alert(alert_of(damage_));
+  const auto not_set = put_back(speeds_, cell, executive);
+  for (const auto& [speed, why] : not_set) {
+    executive.alert({Alert::Level::error, why + "; it is 1: set it before you resume"});
+    // Deletes the record. The alert reports it once.
+    keeper.store().set_speed({.arm = speed.arm}, [](bool) {});
+  }
   const auto not_put_back = put_back(objects_, executive.scene());
   for (const ObjectNotPutBack& one : not_put_back) {
     executive.alert({Alert::Level::error, one.why});
@@ -217,6 +247,8 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     stop_all(executive, summary());
   } else if (!not_put_back.empty()) {
     stop_all(executive, "the scene could not be restored after the server was restarted");
+  } else if (!not_set.empty()) {
+    stop_all(executive, "a speed override could not be restored after the server was restarted");
   } else if (!knows_stops_) {
     stop_all(executive, "it is unknown which arms were stopped when the previous session ended");
   } else {

@@ -20,9 +20,11 @@ class Restart {
   // the store cannot be written.
   [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
 
-  // The executive's first task. Restores the scene, then stops all arms in three cases:
+  // The executive's first task. Restores the speed overrides and the scene, then stops all arms in
+  // four cases:
   // - The cell's `on_restart` is `ask`, and jobs were left.
   // - The scene could not be restored completely.
+  // - A speed override could not be restored.
   // - It is unknown which arms were stopped when the previous session ended.
   // Otherwise stops only the arms that were stopped then. Then restores the jobs. `keeper` must
   // outlive the executive's tasks.
@@ -48,6 +50,7 @@ class Restart {
   std::unordered_set<std::string> ids_waiting_;
   std::unordered_set<std::string> ids_written_off_;
   std::vector<LeftObject> objects_;
+  std::vector<LeftSpeed> speeds_;
   std::vector<std::string> stopped_arms_;
   bool knows_stops_ = true;
   Damage damage_;

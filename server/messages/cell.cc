@@ -10,6 +10,7 @@
 #include "server/codec/cell_format.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/output_part.h"
+#include "server/codec/robot_format.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/scene_format.h"
 #include "server/codec/value_formats.h"
@@ -56,6 +57,36 @@ std::map<std::string, std::string> mesh_addresses(const CellRobotView& view) {
   return addresses;
 }
 
+template <class Member>
+auto of_controller(Member ControllerDescription::*where) {
+  return [where](const CellRobotView& view) { return view.robot->controller.*where; };
+}
+
+FormatPtr<CellRobotView> controller_view_format() {
+  using Controller = ControllerDescription;
+  return named(
+      "CellController", "The kind of a robot's controller, and what it promises.",
+      object<CellRobotView>({
+          output_only("type", of_controller(&Controller::type), controller_type_format(),
+                      "sim: simulated by the server; takes faults. remote: in a process of "
+                      "its own"),
+          output_only("reaction_s", of_controller(&Controller::reaction),
+                      seconds(Controller::reaction_range),
+                      "Longest time from a command to its effect on the arm"),
+          output_only("feedback_period_s", of_controller(&Controller::feedback_period),
+                      seconds(Controller::feedback_period_range),
+                      "Longest time between two reports"),
+          output_only("feedback_timeout_s", of_controller(&Controller::feedback_timeout),
+                      seconds(Controller::feedback_timeout_range),
+                      "Age of the last report after which the arm is stopped"),
+          output_only("tracking_error_rad", &CellRobotView::tracking_error_rad,
+                      number(CheckingSettings::tracking_error_range),
+                      "Largest deviation of a joint from its path: rad or m"),
+      }));
+}
+
+const CellRobotView* itself(const CellRobotView& view) { return &view; }
+
 FormatPtr<CellRobotView> robot_view_format() {
   using View = CellRobotView;
   return named("CellRobot", "",
@@ -75,6 +106,7 @@ FormatPtr<CellRobotView> robot_view_format() {
                        "Text of the SRDF"),
                    output_only("meshes", mesh_addresses, dictionary(text()),
                                "Path of each mesh file, by the name that the URDF uses"),
+                   output_only("controller", itself, controller_view_format()),
                    output_only("arms", &View::arms, list(arm_view_format())),
                }));
 }
@@ -138,8 +170,10 @@ CellView view_of(const Cell& cell, std::string policy, double speed) {
     for (const JointId id : ids) list.push_back(cell.joint(id).name);
     return list;
   };
-  for (const Robot& robot : cell.robots) {
-    CellRobotView& of = view.robots.emplace_back(CellRobotView{&robot, {}});
+  for (std::uint32_t i = 0; i < cell.robots.size(); ++i) {
+    const Robot& robot = cell.robots[i];
+    CellRobotView& of =
+        view.robots.emplace_back(CellRobotView{&robot, cell.tracking_error(RobotId(i)), {}});
     for (const ArmId id : robot.arms) {
       const Arm& arm = cell.arm(id);
       of.arms.push_back({&arm, names(arm.joints), names(arm.gripper_joints)});

@@ -17,6 +17,7 @@ struct CellArmView {
 };
 struct CellRobotView {
   const Robot* robot;
+  double tracking_error_rad;  // Cell::tracking_error()
   std::vector<CellArmView> arms;
 };
 struct CellJointView {

@@ -276,6 +276,13 @@ void JobStore::change(std::vector<StoredObject> objects, Done done) {
   impl_->add(std::move(changes));
 }
 
+void JobStore::set_speed(StoredSpeed speed, Done done) {
+  Pending changes;
+  changes.speeds.emplace(speed.arm, std::move(speed));
+  changes.acceptances.push_back({.jobs = {}, .done = std::move(done)});
+  impl_->add(std::move(changes));
+}
+
 void JobStore::answered_with(std::uint64_t job, RequestOrigin request) {
   Pending changes;
   changes.answers.push_back({job, std::move(request)});

@@ -14,6 +14,7 @@
 #include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
 #include "server/store/stored_object.h"
+#include "server/store/stored_speed.h"
 
 namespace armloom {
 
@@ -55,6 +56,7 @@ struct Leftover {
   bool is_behind = false;            // some data is lost
   bool is_unmarked = false;          // some data may be lost: the mark is missing (StoreMark)
   std::vector<LeftObject> objects;   // in order of arrival
+  std::vector<LeftSpeed> speeds;     // speed overrides
   std::vector<StoredAlert> alerts;   // oldest first
 };
 
@@ -97,6 +99,9 @@ class JobStore {
   // Stores a change of a scene object. If it cannot be written, `done` gets false, but the store
   // keeps it and tries again.
   void change(std::vector<StoredObject> objects, Done done);
+
+  // Stores a change of a speed override. `done` is called in the same way as by change().
+  void set_speed(StoredSpeed speed, Done done);
 
   // The next three functions store soon, and report nothing. answered_with() stores that another
   // request, with an Idempotency-Key, was answered with the job.

@@ -23,6 +23,7 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
     throw SqlFault(SqlFault::kNoAccess,
                    "write-ahead logging (WAL) does not work there, as on a network file system");
   }
+  upgrade(database);
   // Jobs that ended in this session, with the time since its begin. In memory only.
   database.run(
       "PRAGMA temp_store = MEMORY; CREATE TEMP TABLE ended_now(number INTEGER PRIMARY KEY, at_ms "
@@ -79,6 +80,11 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       seal_object_(database_.prepare(std::string("UPDATE scene_object SET sum = ") + kSumOfObject +
                                      " WHERE name = ?1")),
       forget_object_(database_.prepare("DELETE FROM scene_object WHERE name = ?1")),
+      set_speed_(
+          database_.prepare("INSERT OR REPLACE INTO speed_override(arm, text) VALUES(?1, ?2)")),
+      seal_speed_(database_.prepare(std::string("UPDATE speed_override SET sum = ") + kSumOfSpeed +
+                                    " WHERE arm = ?1")),
+      forget_speed_(database_.prepare("DELETE FROM speed_override WHERE arm = ?1")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
                               "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")),
       seal_note_(database_.prepare(std::string("UPDATE audit SET sum = ") + kSumOfAudit +
@@ -140,6 +146,11 @@ Leftover JobTables::leftover() const {
     if (!objects.is_null(1)) found.object.text = objects.text(1);
     found.is_damaged = objects.number(2) != 0;
   }
+  Statement speeds = database_.prepare(std::string("SELECT arm, text, sum IS NOT ") + kSumOfSpeed +
+                                       " FROM speed_override");
+  while (speeds.step()) {
+    left.speeds.push_back({{speeds.text(0), speeds.text(1)}, speeds.number(2) != 0});
+  }
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
                   "WHERE sum IS ") +
@@ -173,6 +184,7 @@ void JobTables::write(const Pending& changes, std::chrono::milliseconds now) {
   }
   for (const StoredAlert& alert : changes.alerts) write(alert);
   for (const auto& [name, object] : changes.objects) write(object);
+  for (const auto& [arm, speed] : changes.speeds) write(speed);
   for (const auto& [job, request] : changes.answers) {
     const std::string_view key = request.key;
     const auto place = static_cast<std::int64_t>(request.place);
@@ -202,6 +214,13 @@ void JobTables::write(const StoredObject& object) {
                        object.text ? std::optional(std::string_view(*object.text)) : std::nullopt);
   set_object_.run();
   seal_object_.bind_all(name).run();
+}
+
+void JobTables::write(const StoredSpeed& speed) {
+  const std::string_view arm = speed.arm;
+  if (!speed.text) return forget_speed_.bind_all(arm).run();
+  set_speed_.bind_all(arm, std::string_view(*speed.text)).run();
+  seal_speed_.bind_all(arm).run();
 }
 
 void JobTables::write(std::uint64_t number, const JobChange& change,

@@ -40,10 +40,12 @@ class JobTables {
   void write(std::uint64_t number, const JobChange& change, std::chrono::milliseconds now);
   void write(const StoredAlert& alert);
   void write(const StoredObject& object);
+  void write(const StoredSpeed& speed);
   Database database_;
   Statement see_, end_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_,
-      stop_, seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_,
-      seal_note_, keep_alert_, seal_alert_, answer_, seal_answer_, count_;
+      stop_, seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, set_speed_,
+      seal_speed_, forget_speed_, note_, seal_note_, keep_alert_, seal_alert_, answer_,
+      seal_answer_, count_;
   std::uint64_t commits_;
 };
 

@@ -28,6 +28,7 @@ void Pending::join(Pending later) {
     if (alerts.size() < kAlertsMax) alerts.push_back(std::move(alert));
   }
   for (auto& [name, object] : later.objects) objects.insert_or_assign(name, std::move(object));
+  for (auto& [arm, speed] : later.speeds) speeds.insert_or_assign(arm, std::move(speed));
   for (Answer& answer : later.answers) {
     if (answers.size() < kAnswersMax) answers.push_back(std::move(answer));
   }

@@ -11,6 +11,7 @@
 #include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
 #include "server/store/stored_object.h"
+#include "server/store/stored_speed.h"
 
 namespace armloom {
 
@@ -49,6 +50,7 @@ struct Pending {
   PendingAudit audit = {};
   std::vector<StoredAlert> alerts = {};              // in order; an alert's last state applies
   std::map<std::string, StoredObject> objects = {};  // by name
+  std::map<std::string, StoredSpeed> speeds = {};    // by arm
   struct Answer {
     std::uint64_t job;
     RequestOrigin request;
@@ -71,7 +73,7 @@ struct Pending {
 
   [[nodiscard]] bool is_empty() const {
     return jobs.empty() && !stops && acceptances.empty() && audit.entries().empty() &&
-           alerts.empty() && objects.empty() && answers.empty();
+           alerts.empty() && objects.empty() && speeds.empty() && answers.empty();
   }
   // Adds later changes.
   void join(Pending later);

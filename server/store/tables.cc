@@ -18,6 +18,7 @@ constexpr int kApplication = 0x41726d6c;  // "Arml"
 // - request: other requests that were answered with the job (RequestOrigin)
 // - body: the client's request, which is needed to run the job; deleted when the job has ended
 // - body.amended: later changes of the request (JSON)
+// - speed_override.arm: '' for the cell; text: JSON, as requested
 // - sum: detects damaged rows (kSumOf...)
 constexpr const char* kTables = R"(
     CREATE TABLE job(
@@ -89,9 +90,17 @@ constexpr const char* kTables = R"(
     INSERT INTO written VALUES(0);
 )";
 
-// Version of the tables. Versions 1 to 10 belong to armloom 0.1. If a later version extends the
-// tables, upgrade older files here.
-constexpr std::int64_t kVersion = 11;
+// Since version 12.
+constexpr const char* kSpeedTable =
+    "CREATE TABLE speed_override(arm TEXT PRIMARY KEY, text TEXT NOT NULL, sum INTEGER) STRICT;";
+
+// Version of the tables. Versions 1 to 10 belong to armloom 0.1.
+constexpr std::int64_t kVersion = 12;
+constexpr std::int64_t kOldestVersion = 11;  // that upgrade() knows
+
+void set_version(Database& database) {
+  database.run("PRAGMA user_version = " + std::to_string(kVersion));
+}
 
 void check_whole(const Database& database) {
   std::string found = database.text("PRAGMA integrity_check(1)");
@@ -108,8 +117,9 @@ void make_store(const std::filesystem::path& file, const std::string& vfs) {
     Database database(unfinished, Database::Access::make, vfs);
     Transaction transaction(database);
     database.run(kTables);
+    database.run(kSpeedTable);
     database.run("PRAGMA application_id = " + std::to_string(kApplication));
-    database.run("PRAGMA user_version = " + std::to_string(kVersion));
+    set_version(database);
     transaction.commit();
   }
   std::filesystem::rename(unfinished, file);
@@ -125,7 +135,7 @@ void check_version(const Database& database) {
   if (application != kApplication) throw std::runtime_error("it is another program's database");
   const std::string tables = "tables of version " + std::to_string(version);
   if (version < 1) throw std::runtime_error("it is corrupt: " + tables);
-  if (version < kVersion) {
+  if (version < kOldestVersion) {
     throw std::runtime_error(
         "it was written by armloom 0.1 (" + tables +
         "), whose jobs this version cannot read: give --data a new folder, and "
@@ -136,6 +146,14 @@ void check_version(const Database& database) {
                              ", this one knows " + std::to_string(kVersion) +
                              "): update armloom, or give --data a new folder");
   }
+}
+
+void upgrade(Database& database) {
+  if (database.number("PRAGMA user_version") == kVersion) return;
+  Transaction transaction(database);
+  database.run(kSpeedTable);
+  set_version(database);
+  transaction.commit();
 }
 
 void check_store(const Database& database) {

@@ -23,6 +23,7 @@ inline constexpr const char* kSumOfAudit =
     "checksum(audit.number, audit.at_ms, audit.who, audit.peer, audit.method, audit.path, "
     "audit.status)";
 inline constexpr const char* kSumOfStop = "checksum(stopped_arm.name)";
+inline constexpr const char* kSumOfSpeed = "checksum(speed_override.arm, speed_override.text)";
 inline constexpr const char* kSumOfObject =
     "checksum(scene_object.number, scene_object.name, scene_object.text)";
 inline constexpr const char* kSumOfRequest =
@@ -33,9 +34,12 @@ inline constexpr const char* kSumOfRequest =
 // SqlFault, std::system_error.
 void make_store(const std::filesystem::path& file, const std::string& vfs);
 
-// Checks that this version of Armloom wrote the file. Throws SqlFault, or std::runtime_error if
-// another program or another version of Armloom wrote the file, or if its tables are lost.
+// Checks that this version of Armloom, or an earlier one whose tables upgrade() extends, wrote the
+// file. Throws SqlFault, or std::runtime_error if another program or another version of Armloom
+// wrote the file, or if its tables are lost.
 void check_version(const Database& database);
+// Adds the tables that a file of an earlier version lacks. Precondition: check_version().
+void upgrade(Database& database);
 // Checks the version and the integrity of the whole file. Throws the same exceptions as
 // check_version().
 void check_store(const Database& database);

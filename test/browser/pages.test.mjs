@@ -133,6 +133,7 @@ test('A click on an arm or object opens its page and highlights it in all views'
   await page.mouse.click(label.x + label.width / 2, label.y - 34);
   await page.locator('[data-test=page-arm]').waitFor();
   await address_like(page, /#\/arm\/left/);
+  await reads(page.locator('[data-test=controller]'), /simulated by the server.*\d\.\d of 1\.0 mrad/s);
   await label_of(page, 'left').and(page.locator('.lit')).waitFor();
   await page.locator('[data-test=arm-left].lit').waitFor();
   await page.evaluate(() => window.armloom.drawn());

@@ -165,6 +165,26 @@ TEST(CellCodec, WritesTheViewForTheDashboard) {
   EXPECT_EQ(out["scheduling"]["backlog_timeout_s"], 60.0);
 }
 
+TEST(CellCodec, ViewHasTheControllersWithPromisesInEffect) {
+  json file = two_pandas();
+  file["checking"]["tracking_error_rad"] = 0.003;
+  file["robots"][1]["controller"] = {{"type", "remote"},          {"endpoint", "unix:/tmp/right"},
+                                     {"reaction_s", 0.03},        {"feedback_period_s", 0.004},
+                                     {"feedback_timeout_s", 0.2}, {"tracking_error_rad", 0.002}};
+  const CellPtr cell = *build_cell(*read_cell_text(file.dump(), kConfig));
+  const json out = json::parse(text_of(*cell_view_format(), view_of(*cell, "sequential", 1.0)));
+  const json defaults = {{"type", "sim"},
+                         {"reaction_s", 0.02},
+                         {"feedback_period_s", 0.001},
+                         {"feedback_timeout_s", 0.1},
+                         {"tracking_error_rad", 0.003}};
+  json given = file["robots"][1]["controller"];
+  given.erase("endpoint");
+  EXPECT_EQ(out["robots"][0]["controller"], defaults);
+  EXPECT_EQ(out["robots"][1]["controller"], given);
+  EXPECT_EQ(out["simulated"], false);
+}
+
 TEST(CellCodec, ReadsAnglesInDegreesToo) {
   json cell = two_pandas();
   cell["robots"][0]["base"] = {{"xyz", {0, 0, 0}}, {"rpy_deg", {0, 90, 180}}};

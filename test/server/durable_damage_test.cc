@@ -71,6 +71,26 @@ TEST_F(DamagedFolder, UnknownStopsKeepAllArmsStoppedWithAnAlert) {
   EXPECT_EQ(state_of("right"), "idle");
 }
 
+TEST_F(DamagedFolder, UnknownSpeedOverrideKeepsAllArmsStoppedWithAnAlert) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  ASSERT_EQ(put_speed("/speed", 0.2).status, 200);
+  ASSERT_EQ(put_speed("/arms/left/speed", 0.5).status, 200);
+  end();
+  damage("UPDATE speed_override SET text = replace(text, '0.2', '0.9')");
+  start(1);
+  wait_until(
+      [&] { return is_told("speed override of the cell cannot be restored: its record in the"); });
+  EXPECT_EQ(state_of("left"), "stopped");
+  EXPECT_EQ(state_of("right"), "stopped");
+  EXPECT_EQ(speed_of("/arms/left"), 0.5);
+  ASSERT_EQ(put_speed("/speed", 0.2).status, 200);
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  restart();
+  EXPECT_EQ(speed_of("/speed"), 0.2);
+  EXPECT_EQ(state_of("left"), "idle");
+}
+
 // An operator stops an arm while the disk is full, and restarts the server to fix the disk.
 TEST_F(Durable, UnwrittenStopKeepsAllArmsStoppedAfterRestart) {
   on_restart_ = OnRestart::continue_;

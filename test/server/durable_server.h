@@ -52,6 +52,13 @@ class Durable : public test::RunningServer {
     job.update(more);
     return post("/api/v1/jobs", job.dump());
   }
+  test::Answer put_speed(const std::string& path, double share) {
+    return test::request(port(), "PUT", "/api/v1" + path,
+                         nlohmann::json{{"speed_override", share}}.dump());
+  }
+  nlohmann::json speed_of(const std::string& path) {
+    return get("/api/v1" + path).json()["speed_override"];
+  }
   nlohmann::json state_of(const std::string& arm) {
     return get("/api/v1/arms/" + arm).json()["state"];
   }

@@ -123,6 +123,43 @@ TEST_F(Durable, OperatorsStopSurvivesARestart) {
   EXPECT_EQ(get("/api/v1/arms/right").json()["state"], "idle");
 }
 
+TEST_F(Durable, SpeedOverridesSurviveARestart) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  EXPECT_EQ(put_speed("/speed", 0.5).status, 200);
+  EXPECT_EQ(put_speed("/speed", 0.2).status, 200);
+  EXPECT_EQ(put_speed("/arms/left/speed", 0).status, 200);
+  EXPECT_EQ(submit("held").status, 202);
+  for (int run = 0; run < 2; ++run) {
+    restart();
+    EXPECT_EQ(speed_of("/speed"), 0.2);
+    EXPECT_EQ(speed_of("/arms/left"), 0);
+    EXPECT_EQ(speed_of("/arms/right"), 1);
+    EXPECT_EQ(get("/api/v1/arms/right").json()["effective_speed_override"], 0.2);
+    EXPECT_EQ(state_of("right"), "idle");
+    wait_until([&] {
+      const json waits = job("held")["waits_on"];
+      return !waits.empty() && waits[0]["kind"] == "speed";
+    });
+    EXPECT_EQ(job("held")["state"], "queued") << "it may not move before its override is restored";
+  }
+  EXPECT_EQ(put_speed("/arms/left/speed", 1).status, 200);
+  wait_for("held", "running");
+}
+
+TEST_F(Durable, SpeedOverrideIsAcknowledgedWhenStored) {
+  start(1);
+  FailingDisk::fail(FailingDisk::Fault::broken, FailingDisk::operations() + 1);
+  const auto warned = put_speed("/arms/left/speed", 0.3);
+  EXPECT_EQ(warned.status, 503) << warned.body;
+  EXPECT_NE(warned.body.find("done, but not stored"), std::string::npos);
+  EXPECT_EQ(speed_of("/arms/left"), 0.3);
+  FailingDisk::reset();
+  wait_until([&] { return get("/readyz").status == 200; });
+  restart();
+  EXPECT_EQ(speed_of("/arms/left"), 0.3) << "it was written later";
+}
+
 // A job that waits for an object must not find its path free after a restart.
 TEST_F(Durable, SceneChangesSurviveARestart) {
   on_restart_ = OnRestart::continue_;

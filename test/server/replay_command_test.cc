@@ -90,6 +90,30 @@ TEST_F(ReplayCommand, ReproducesTheEventsOfAKilledServer) {
   EXPECT_EQ(beyond.last_line(), summary) << "nothing is known of what came after";
 }
 
+TEST_F(ReplayCommand, ReproducesASessionThatRestoredSpeedOverrides) {
+  live();
+  {
+    test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "20"},
+                              (folder_ / "log").string());
+    const auto call = [&](const char* method, const std::string& path, const std::string& body) {
+      return test::request(server.port(), method, "/api/v1" + path, body);
+    };
+    const json left = call("GET", "/arms/left", "").json();
+    EXPECT_EQ(left["speed_override"], 0.6);
+    EXPECT_EQ(left["effective_speed_override"], 0.7 * 0.6);
+    EXPECT_EQ(call("POST", "/resume", "").status, 202);
+    EXPECT_EQ(call("POST", "/jobs", R"({"id": "go", "arm": "left", "move_to": {"named": "ready"}})")
+                  .status,
+              202);
+    EXPECT_EQ(ended(server.port(), "go")["state"], "succeeded");
+    server.signal(SIGKILL);
+    server.wait();
+  }
+  const auto replayed = run("replay --data " + data());
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_EQ(replayed.last_line()["same"], true);
+}
+
 // Includes meshes: the cell's original files are not needed.
 TEST_F(ReplayCommand, WorksAfterTheFolderWasMoved) {
   namespace fs = std::filesystem;

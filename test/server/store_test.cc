@@ -293,6 +293,23 @@ TEST_F(Store, RefusesTablesOfAnOlderVersionAndLeavesThemUnchanged) {
   EXPECT_EQ(read(), before);
 }
 
+TEST_F(Store, ExtendsTablesOfAnEarlierVersion) {
+  { EXPECT_TRUE(accept(*open(), 1).get()); }
+  sql("DROP TABLE speed_override; PRAGMA user_version = 11");
+  EXPECT_TRUE(JobHistory::open(folder_)) << "it needs none of the new tables";
+  for (const char* speed : {"0.5", "0.2"}) {
+    const auto store = open();
+    EXPECT_EQ(store->leftover().jobs.size(), 1U);
+    store->set_speed({"left", speed}, [](bool is_written) { EXPECT_TRUE(is_written); });
+    EXPECT_TRUE(store->flush());
+  }
+  const auto store = open();
+  const auto& speeds = store->leftover().speeds;
+  ASSERT_EQ(speeds.size(), 1U);
+  EXPECT_EQ(speeds[0].speed.text, "0.2");
+  EXPECT_FALSE(speeds[0].is_damaged);
+}
+
 TEST_F(Store, FiltersHistoryByStateArmAndPage) {
   const auto store = open();
   for (std::uint64_t number = 1; number <= 30; ++number) {

@@ -3,7 +3,7 @@
 import type { Link } from './server/connection';
 import type { Facts, Restart } from './state/facts';
 import { is_stopped } from './state/shown_state';
-import { pair_of, type Arm, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
+import { pair_of, type Arm, type CellController, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 import { cut_text, shown_name, shown_text } from './names';
 import { kText } from './strings';
 
@@ -207,6 +207,23 @@ export function arm_notes({ link, link_detail, stop_cause, drives_on }: Arm): st
     ...(link === 'connecting' ? [words.connecting(detail)] : []),
     ...(has_link && stop_cause !== null ? [words.stop_cause(shown_text(stop_cause))] : []),
     ...(drives_on ? [] : [words.drives_off]),
+  ];
+}
+
+/**
+ * Returns the titles and values of what a controller promises, with what was measured (null if that
+ * is not known). `units` are those of the arm's joints.
+ */
+export function promises_in_words(controller: CellController, units: string, measured: Pick<Arm, 'deviation_rad' | 'deviation_max_rad'> | null): [title: string, value: string][] {
+  const words = kText.arm;
+  const ms = (s: number) => number_in_words(1000 * s);
+  const thousandths = (value: number) => (1000 * value).toFixed(1);
+  const most = `${thousandths(controller.tracking_error_rad)} ${units.replace(/\b(rad|m)\b/g, 'm$1')}`;
+  return [
+    [words.controller_type, words.controller_types[controller.type]],
+    [words.tracking_error, measured === null ? words.tracking_error_promised(most) : words.tracking_error_measured(thousandths(measured.deviation_rad), most, thousandths(measured.deviation_max_rad))],
+    [words.reaction, words.reaction_promised(ms(controller.reaction_s))],
+    [words.feedback, words.feedback_promised(ms(controller.feedback_period_s), ms(controller.feedback_timeout_s))],
   ];
 }
 

@@ -1,13 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import type { CellRobot } from '../src/server/messages';
+import type { CellController, CellRobot } from '../src/server/messages';
 import { fault_in_words, kKinds, may_last, request_of, simulated_arms, value_of } from '../src/frame/fault_request';
+import { controller } from './samples';
 
 describe('simulated_arms', () => {
-  it('has no arm if the cell has remote controllers', () => {
-    const arm = { name: 'left', group: 'arm', joints: [], gripper_joints: [], home: [], named_states: {} };
-    const robots = [{ name: 'r', prefix: '', base: { xyz: [0, 0, 0], rpy: [0, 0, 0] }, urdf: '', srdf: '', meshes: {}, arms: [arm, { ...arm, name: 'right' }] }] satisfies CellRobot[];
-    expect(simulated_arms({ simulated: true, robots })).toEqual(['left', 'right']);
-    expect(simulated_arms({ simulated: false, robots })).toEqual([]);
+  const robot = (name: string, type: CellController['type']): CellRobot => ({
+    name, prefix: '', base: { xyz: [0, 0, 0], rpy: [0, 0, 0] }, urdf: '', srdf: '', meshes: {}, controller: controller({ type }),
+    arms: [{ name, group: 'arm', joints: [], gripper_joints: [], home: [], named_states: {} }],
+  });
+  it('has the arms with simulated controllers, also in a cell with remote ones', () => {
+    expect(simulated_arms({ robots: [robot('left', 'sim'), robot('middle', 'remote'), robot('right', 'sim')] })).toEqual(['left', 'right']);
+    expect(simulated_arms({ robots: [robot('left', 'remote')] })).toEqual([]);
   });
 });
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { pair_of, parse_cell, parse_message, parse_problem, range_of, shape_of, type Message } from '../src/server/messages';
-import { arm_json, envelope, frame, job_json, snapshot, wait_json } from './samples';
+import { arm_json, controller, envelope, frame, job_json, snapshot, wait_json } from './samples';
 
 function good(text: string): Message {
   const parsed = parse_message(text);
@@ -79,7 +79,7 @@ describe('Cell', () => {
     monitor: { rate_hz: 100, reaction_s: 0.02, stop_clearance_m: 0.01 },
     execution: { start_tolerance_rad: 0.01, duration_scaling: 1.1, duration_margin_s: 0.5, velocity_scaling_factor: 1 },
     robots: [{
-      name: 'left', prefix: 'left_', base: { xyz: [-0.4, 0, 0.1], rpy: [0, 0, 0] }, urdf: '<robot/>', srdf: '', meshes: {},
+      name: 'left', prefix: 'left_', base: { xyz: [-0.4, 0, 0.1], rpy: [0, 0, 0] }, urdf: '<robot/>', srdf: '', meshes: {}, controller: controller(),
       arms: [{ name: 'left', group: 'panda_arm', joints: ['left_panda_joint1'], gripper_joints: [], home: [0], named_states: {} }],
     }],
     objects: [], joints: [{ name: 'left_panda_joint1', arm: 'left', lower: -2, upper: 2, velocity_max: 2, acceleration_max: 4, jerk_max: 9, brake: 8, unit: 'rad' }],

@@ -1,5 +1,7 @@
 // Messages as the server writes them, for the tests.
 
+import type { CellController } from '../src/server/messages';
+
 export const kStream = '5f0c7f0e-6f0e-4d55-9b1c-0d3a54c7a001';
 
 export function arm_json(name: string, over: object = {}): Record<string, unknown> {
@@ -8,6 +10,10 @@ export function arm_json(name: string, over: object = {}): Record<string, unknow
     joints: [`${name}_panda_joint1`, `${name}_panda_joint2`], q: [0.1, -1.2], home: [0, -1.2],
     deviation_rad: 0.0002, deviation_max_rad: 0.0005, link: 'up', link_detail: null, drives_on: true, stop_cause: null, ...over,
   };
+}
+
+export function controller(over: Partial<CellController> = {}): CellController {
+  return { type: 'sim', reaction_s: 0.02, feedback_period_s: 0.001, feedback_timeout_s: 0.1, tracking_error_rad: 0.001, ...over };
 }
 
 export function job_json(id: string, over: object = {}): Record<string, unknown> {

@@ -2,9 +2,9 @@ import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
   bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimeters, monitor_in_words, reason_in_words,
-  result_in_words, seconds, short_id, path_in_words, why_not_connected,
+  result_in_words, seconds, short_id, path_in_words, promises_in_words, why_not_connected,
 } from '../src/wording';
-import { envelope, job_json, wait_json } from './samples';
+import { controller, envelope, job_json, wait_json } from './samples';
 
 function job(over: object): Job {
   const parsed = parse_message(envelope('job', 1, job_json('pick-7', over)));
@@ -113,6 +113,20 @@ describe('Monitor event', () => {
   it('gives the sentence of the server for a violated premise', () => {
     const event: MonitorData = { kind: 'deviation', text: 'left left its path: j1 by 0.0020 rad, limit 0.0010 rad', arms: ['left'], joint: 'j1', value: 0.002, limit: 0.001, stopped: ['left'] };
     expect(monitor_in_words(event)).toBe('left left its path: j1 by 0.0020 rad, limit 0.0010 rad; stopped left');
+  });
+});
+
+describe('Promises of a controller', () => {
+  const promises = (units: string, measured: Parameters<typeof promises_in_words>[2]) => Object.fromEntries(promises_in_words(controller({ type: 'remote', feedback_timeout_s: 0.2 }), units, measured));
+  it('are shown with what was measured', () => {
+    expect(promises('rad', { deviation_rad: 0.0003, deviation_max_rad: 0.0012 })).toEqual({
+      'Type': 'in a process of its own', 'Tracking error': '0.3 of 1.0 mrad (most in this session: 1.2)',
+      'Reaction to a command': 'within 20 ms', 'Reports': 'every 1 ms; the arm is stopped if none arrives for 200 ms',
+    });
+  });
+  it('are shown alone if nothing is known of that time', () => {
+    expect(promises('m', null)['Tracking error']).toBe('at most 1.0 mm');
+    expect(promises('rad and m', null)['Tracking error']).toBe('at most 1.0 mrad and mm');
   });
 });
 

@@ -1,4 +1,4 @@
-// The page of one arm: current and next jobs, joints with limits and deviation from the path, and a
+// The page of one arm: current and next jobs, joints with limits, what its controller promises, and a
 // plot of the last seconds.
 
 import { useState } from 'preact/hooks';
@@ -19,7 +19,7 @@ import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/mark_words';
 import { short_names, shown_name } from '../names';
-import { reason_in_words, title_of } from '../wording';
+import { promises_in_words, reason_in_words, title_of } from '../wording';
 import { kText } from '../strings';
 import { ArmNotes, StatePill } from './arms';
 
@@ -55,6 +55,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
       <JogPanel arm={arm} app={app} />
       <h3>{kWords.joints}</h3>
       <Joints arm={arm} app={app} />
+      <Controller arm={arm} app={app} />
       <h3>{kWords.measured(units_of(arm.joints, app), kPlotted_s)}</h3>
       <Plot app={app} joints={arm.joints} last_s={kPlotted_s} label={kWords.measured_label(name)} />
       <h3>{kWords.schedule}</h3>
@@ -104,8 +105,21 @@ function Joints({ arm, app }: { arm: Arm; app: App }) {
     <table class="joints" data-test={`joints-${arm.name}`}>
       <thead><tr>{[kWords.joint, kWords.lower, kWords.position, kWords.upper, kWords.measured_column].map((title) => <th key={title} scope="col">{title}</th>)}</tr></thead>
       <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} title={titles[i] ?? name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
-      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>{kWords.largest_deviation}</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad ({kWords.largest_so_far}: {arm.deviation_max_rad.toFixed(4)})</td></tr></tfoot>}
     </table>
+  );
+}
+
+function Controller({ arm, app }: { arm: Arm; app: App }) {
+  const robot = app.store.cell?.robots.find(({ arms }) => arms.some(({ name }) => name === arm.name));
+  if (!robot) return null;
+  const measured = app.router.address.value.t_s === null ? arm : null;
+  return (
+    <>
+      <h3>{kWords.controller}</h3>
+      <dl class="facts-list" data-test="controller">
+        {promises_in_words(robot.controller, units_of(arm.joints, app), measured).map(([what, value]) => <div key={what}><dt>{what}</dt><dd>{value}</dd></div>)}
+      </dl>
+    </>
   );
 }
 

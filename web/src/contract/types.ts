@@ -652,6 +652,7 @@ export interface components {
             meshes: {
                 [key: string]: string;
             };
+            controller: components["schemas"]["CellController"];
             arms: components["schemas"]["CellArm"][];
         };
         /** @description An object of the scene, with exactly one shape. A mesh is given by its path on this server. */
@@ -990,6 +991,22 @@ export interface components {
             progress_s: number;
             /** @description Movement authority: the arm stops at this time unless more authority is granted */
             authority_s: number;
+        };
+        /** @description The kind of a robot's controller, and what it promises. */
+        CellController: {
+            /**
+             * @description sim: simulated by the server; takes faults. remote: in a process of its own
+             * @enum {string}
+             */
+            type: "sim" | "remote";
+            /** @description Longest time from a command to its effect on the arm */
+            reaction_s: number;
+            /** @description Longest time between two reports */
+            feedback_period_s: number;
+            /** @description Age of the last report after which the arm is stopped */
+            feedback_timeout_s: number;
+            /** @description Largest deviation of a joint from its path: rad or m */
+            tracking_error_rad: number;
         };
         CellArm: {
             name: string;

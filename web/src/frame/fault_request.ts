@@ -12,12 +12,9 @@ export const kKinds: Record<FaultKind, string> = kWords.kinds;
 const kValues: Partial<Record<FaultKind, { unit: string; usual: number }>> = kWords.values;
 const kOnce: readonly FaultKind[] = ['fault', 'reject'];
 
-/**
- * Returns the arms whose controllers take faults. If any controller of the cell is remote, these are
- * unknown, and the list is empty.
- */
-export function simulated_arms({ simulated, robots }: Pick<Cell, 'simulated' | 'robots'>): string[] {
-  return simulated ? robots.flatMap(({ arms }) => arms.map(({ name }) => name)) : [];
+/** Returns the arms with simulated controllers. Other controllers take no faults. */
+export function simulated_arms({ robots }: Pick<Cell, 'robots'>): string[] {
+  return robots.flatMap(({ controller, arms }) => (controller.type === 'sim' ? arms.map(({ name }) => name) : []));
 }
 
 /** Returns the unit and usual value of this kind of fault, or null if it has no value. */

@@ -19,6 +19,8 @@ export type SceneObject = Schemas['Object'];
 export type Cell = Schemas['Cell'];
 export type CellArm = Schemas['CellArm'];
 export type CellRobot = Schemas['CellRobot'];
+/** The kind of a robot's controller, and what it promises. */
+export type CellController = Schemas['CellController'];
 export type CellJoint = Schemas['CellJoint'];
 /** The coordination diagram of two jobs. */
 export type Diagram = Schemas['Diagram'];
