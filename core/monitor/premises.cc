@@ -62,17 +62,19 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       check_rest(arm, seen, found);
       check_stop(arm, seen, found);
     }
-    const bool moved = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)].holds;
-    state.elsewhere = moved && time_ && std::ranges::all_of(state.joints, [&](JointId joint) {
-                        return std::abs(seen.measured[joint.value()] - measured_[joint.value()]) <=
-                               tracking_error(*cell_, arm);
-                      });
+    state.elsewhere =
+        state.moved_at && time_ && std::ranges::all_of(state.joints, [&](JointId joint) {
+          return std::abs(seen.measured[joint.value()] - measured_[joint.value()]) <=
+                 tracking_error(*cell_, arm);
+        });
     state.last = seen.arms[a];
   }
   measured_ = seen.measured;
   time_ = seen.time;
   return found;
 }
+
+void PremiseCheck::resumed(ArmId arm) { arms_[arm.index()].violations = {}; }
 
 // Reports a violation when it begins, or goes on after a rest.
 void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,
@@ -94,9 +96,8 @@ void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding findi
 
 // The arm rested before it started, also if no period saw it.
 void PremiseCheck::begin_motion(ArmId arm, const Observation& seen) {
-  ArmState& state = arms_[arm.index()];
-  for (Violation& known : state.violations) known.has_rested = known.holds;
-  if (!state.rested) begin_rest(arm, seen);
+  resumed(arm);
+  if (!arms_[arm.index()].rested) begin_rest(arm, seen);
 }
 
 // ---- Feedback ----
@@ -279,33 +280,32 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
   const double limit = tracking_error(*cell_, arm);
   if (rests && !state.rested) begin_rest(arm, seen);
   state.rested = rests;
-  if (!rests) return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = {}}, found);
+  if (!rests) {
+    state.moved_at.reset();
+    return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = seen.time}, found);
+  }
   Farthest far;
   for (const JointId joint : state.joints) {
     const double away = std::abs(seen.measured[joint.value()] - state.rest[joint.value()]);
     if (away > far.distance) far = {away, joint};
   }
   const bool moved = far.distance > limit;
-  Violation& known = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)];
-  if (known.holds) {  // until it stands still
-    state.as_certified = false;
-    if (seen.time - state.still_since < kStill) return;
-    if (!moved) known = {};
+  if (moved) {
+    state.moved_at = seen.time;
     set_rest(state, seen.measured);
-    state.still_since = seen.time;
-    return;
+  } else if (state.moved_at && seen.time - *state.moved_at >= kStill) {
+    state.moved_at.reset();
   }
-  if (!moved) return;
-  state.as_certified = false;
-  state.still_since = seen.time;
-  judge(arm, true, true,
+  state.as_certified = state.as_certified && !state.moved_at;
+  // Slow motion exceeds the limit now and then.
+  if (!moved && state.moved_at) return;
+  judge(arm, moved, true,
         {.kind = Kind::unplanned_motion,
          .time = seen.time,
          .joint = far.joint,
          .value = far.distance,
          .limit = limit},
         found);
-  set_rest(state, seen.measured);
 }
 
 std::optional<MonitorFinding> PremiseCheck::finished(ArmId arm, const Trajectory& motion,

@@ -21,9 +21,11 @@ class PremiseCheck {
   explicit PremiseCheck(CellPtr cell);
 
   // Returns the new findings of this period; each stops its arm, except
-  // late_feedback. A violation is reported when it
-  // begins, and again if the arm moves on after it came to rest. `time` grows from call to call.
+  // late_feedback. A violation is reported when it begins, and again if the arm moves on after it
+  // came to rest, or was resumed. `time` grows from call to call.
   [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen);
+  // The arm is no longer stopped: each violation that still holds is reported again.
+  void resumed(ArmId arm);
   // Checks an arm whose controller reports "finished". Returns a finding if it is not at the goal.
   [[nodiscard]] std::optional<MonitorFinding> finished(ArmId arm, const Trajectory& motion,
                                                        const Configuration& measured,
@@ -73,7 +75,8 @@ class PremiseCheck {
     ArmObservation last = {};
     TimePoint changed_at{};     // when the positions last changed
     Duration commanded_then{};  // commanded progress then
-    TimePoint still_since{};    // unplanned_motion: start of the present window
+    // Set while it rests, until it stands still: when it last moved by more than its limit.
+    std::optional<TimePoint> moved_at = {};
     double deviation = 0.0;
     bool as_certified = true;
     bool keeps_authority = true;
