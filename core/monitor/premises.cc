@@ -219,25 +219,42 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
         found);
 }
 
-// A brake from the planned rate takes at most twice the stopping reach. Then the arm follows its
-// commands until the lag has died out.
+// Returns the longest time from the acknowledgment of a brake until the arm stands. A brake from
+// the planned rate takes at most twice the stopping reach. Then the arm follows its commands until
+// the lag has died out. Without a motion, each joint may have its largest velocity.
+Duration PremiseCheck::stopping_time(ArmId arm, bool has_motion) const {
+  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
+  Duration braking = has_motion ? 2 * stopping_reach(arm) : Duration{};
+  for (const JointId joint : joints(arm)) {
+    const double brake_s = velocity_limit(*cell_, joint) / cell_->joint(joint).brake;
+    if (!has_motion) braking = std::max(braking, from_seconds(brake_s));
+  }
+  return controller.reaction + controller.feedback_period + kSettles * controller.lag + braking;
+}
+
 void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
                               std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
   const ArmObservation& now = seen.arms[arm.index()];
-  MonitorFinding finding{.kind = Kind::stop_ignored, .time = seen.time};
-  const ArmObservation& last = arms_[arm.index()].last;
-  const bool advances =
-      std::max(now.commanded, now.measured) > std::max(last.commanded, last.measured);
-  if (!now.braking_since || !now.motion || now.rests || !advances) {
-    return judge(arm, false, true, std::move(finding), found);
+  const bool rests = !now.motion || now.rests;
+  if (!now.braking_since) return judge(arm, false, rests, {Kind::stop_ignored, seen.time}, found);
+  bool moves = false;
+  Duration told = seen.time - *now.braking_since;
+  const Duration limit = stopping_time(arm, !rests);
+  if (!rests) {
+    moves = told > limit && std::max(now.commanded, now.measured) >
+                                std::max(state.last.commanded, state.last.measured);
+  } else if (since(state.last.reported, now.reported)) {
+    told = std::min(told, seen.time - state.braked_at);
+    moves =
+        state.moves_on.observe(seen.measured, state.joints, tracking_error(*cell_, arm), seen.time);
   }
-  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
-  const Duration told = seen.time - *now.braking_since;
-  const Duration allowance =
-      controller.reaction + controller.feedback_period + kSettles * controller.lag;
-  finding.value = to_seconds(told);
-  finding.limit = to_seconds(allowance + 2 * stopping_reach(arm));
-  judge(arm, finding.value > finding.limit, false, std::move(finding), found);
+  judge(arm, moves, rests,
+        {.kind = Kind::stop_ignored,
+         .time = seen.time,
+         .value = to_seconds(told),
+         .limit = to_seconds(limit)},
+        found);
 }
 
 void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {
@@ -282,6 +299,7 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
   state.rested = rests;
   if (!rests) {
     state.moved_at.reset();
+    state.moves_on.end();
     return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = seen.time}, found);
   }
   Farthest far;
@@ -299,6 +317,7 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
   state.as_certified = state.as_certified && !state.moved_at;
   // Slow motion exceeds the limit now and then.
   if (!moved && state.moved_at) return;
+  const std::size_t before = found.size();
   judge(arm, moved, true,
         {.kind = Kind::unplanned_motion,
          .time = seen.time,
@@ -306,6 +325,10 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
          .value = far.distance,
          .limit = limit},
         found);
+  // An arm that was stopped before may be moved by a person.
+  if (found.size() == before || now.is_stopped) return;
+  state.braked_at = seen.time;
+  state.moves_on.begin(seen.time + stopping_time(arm, false));
 }
 
 std::optional<MonitorFinding> PremiseCheck::finished(ArmId arm, const Trajectory& motion,

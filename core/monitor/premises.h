@@ -7,6 +7,7 @@
 #include "core/base/enumeration.h"
 #include "core/monitor/earliest_rest.h"
 #include "core/monitor/finding.h"
+#include "core/monitor/moves_on.h"
 #include "core/monitor/observation.h"
 #include "core/monitor/path_distance.h"
 
@@ -77,6 +78,8 @@ class PremiseCheck {
     Duration commanded_then{};  // commanded progress then
     // Set while it rests, until it stands still: when it last moved by more than its limit.
     std::optional<TimePoint> moved_at = {};
+    TimePoint braked_at{};  // when the monitor stopped its unplanned motion
+    MovesOn moves_on = {};  // after that brake
     double deviation = 0.0;
     bool as_certified = true;
     bool keeps_authority = true;
@@ -88,6 +91,7 @@ class PremiseCheck {
                     std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  [[nodiscard]] Duration stopping_time(ArmId arm, bool has_motion) const;
   void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void begin_motion(ArmId arm, const Observation& seen);
   void begin_rest(ArmId arm, const Observation& seen);
