@@ -56,8 +56,7 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       continue;
     }
     if (seen.arms[a].starts != state.last.starts) begin_motion(arm, seen);
-    check_feedback(arm, seen, found);
-    if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
+    if (!check_feedback(arm, seen, found)) {
       check_path(arm, seen, found);
       check_rest(arm, seen, found);
       check_stop(arm, seen, found);
@@ -81,12 +80,13 @@ void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding findi
                          std::vector<MonitorFinding>& found) {
   Violation& known = arms_[arm.index()].violations[static_cast<std::size_t>(finding.kind)];
   if (!holds) {
-    known = {};
+    known.has_rested = known.has_rested || rests;
     return;
   }
-  const bool is_new = !known.holds || (known.has_rested && !rests);
+  const bool is_known = known.held_at && finding.time - *known.held_at < kSameCondition;
+  const bool is_new = !is_known || (known.has_rested && !rests);
   known.has_rested = !is_new && (known.has_rested || rests);
-  known.holds = true;
+  known.held_at = finding.time;
   if (!is_new) return;
   finding.arm = arm;
   // The link of an arm without reports stops it (core/executive/link_watch.h).
@@ -102,12 +102,13 @@ void PremiseCheck::begin_motion(ArmId arm, const Observation& seen) {
 
 // ---- Feedback ----
 
-void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
+bool PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
                                   std::vector<MonitorFinding>& found) {
   ArmState& state = arms_[arm.index()];
   const ArmObservation& now = seen.arms[arm.index()];
   const Duration timeout = cell_->robots[cell_->arm(arm).robot.index()].controller.feedback_timeout;
-  judge(arm, now.feedback_age > timeout, now.rests,
+  const bool is_late = now.feedback_age > timeout;
+  judge(arm, is_late, now.rests,
         {.kind = Kind::late_feedback,
          .time = seen.time,
          .value = to_seconds(now.feedback_age),
@@ -139,6 +140,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
          .value = to_seconds(seen.time - state.changed_at),
          .limit = to_seconds(timeout)},
         found);
+  return is_late;
 }
 
 // Finds positions that changed faster than the joints can move. `elapsed`: between the reports.
@@ -181,8 +183,8 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
     judge(arm, false, true, {.kind = Kind::beyond_authority, .time = seen.time}, found);
     // A deviation ends when the arm rests: from then on the rest is checked.
     Violation& known = state.violations[static_cast<std::size_t>(Kind::deviation)];
-    if (now.motion) known.has_rested = known.holds;
     if (!now.motion) known = {};
+    known.has_rested = true;
     return;
   }
   const double limit = observed_limit(now.off_path, tracking_error(*cell_, arm));
@@ -315,8 +317,6 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
     state.moved_at.reset();
   }
   state.as_certified = state.as_certified && !state.moved_at;
-  // Slow motion exceeds the limit now and then.
-  if (!moved && state.moved_at) return;
   const std::size_t before = found.size();
   judge(arm, moved, true,
         {.kind = Kind::unplanned_motion,

@@ -23,7 +23,8 @@ class PremiseCheck {
 
   // Returns the new findings of this period; each stops its arm, except
   // late_feedback. A violation is reported when it begins, and again if the arm moves on after it
-  // came to rest, or was resumed. `time` grows from call to call.
+  // came to rest, or was resumed. A violation begins if it did not hold for kSameCondition. `time`
+  // grows from call to call.
   [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen);
   // The arm is no longer stopped: each violation that still holds is reported again.
   void resumed(ArmId arm);
@@ -65,8 +66,8 @@ class PremiseCheck {
 
  private:
   struct Violation {
-    bool holds = false;
-    bool has_rested = false;  // since it was reported
+    std::optional<TimePoint> held_at = {};  // last time
+    bool has_rested = false;                // since it was reported
   };
   struct ArmState {
     EarliestRest earliest_rest;
@@ -86,7 +87,8 @@ class PremiseCheck {
     bool elsewhere = false;  // rests_elsewhere()
     std::array<Violation, kValueCount<Kind>> violations = {};
   };
-  void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  // Returns true if the arm's last report is too old.
+  bool check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_change(ArmId arm, const Observation& seen, Duration elapsed,
                     std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
