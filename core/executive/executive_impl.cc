@@ -241,6 +241,7 @@ std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
   if (arms.empty()) return not_resumed;
   publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
   for (const ArmId arm : arms) locate(arm);
+  for (const ArmId arm : arms) watch_.resumed(arm);
   step(Resume{arms});
   return not_resumed;
 }

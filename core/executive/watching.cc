@@ -46,7 +46,10 @@ void Executive::Impl::take(const MotionReport& report) {
 void Executive::Impl::watch() {
   publisher_.tell_watch();
   const Motions& motions = execution_.motions();
-  const Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
+  Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
+  for (ArmId arm : all_arms(*cell_)) {
+    seen.arms[arm.index()].is_stopped = scheduler_.stop_of(arm).has_value();
+  }
   std::vector<MonitorFinding> found = watch_.check_premises(seen);
   std::vector<bool> moving;
   for (ArmId arm : all_arms(*cell_)) {

@@ -120,8 +120,8 @@ struct Resume {
 };
 // An arm without authority was found at rest at `position`: it was moved while it was stopped, or
 // its controller has just connected. Ends Unlocated. Otherwise ignored if the arm's job is in
-// motion. A job that rests on its path and is no longer there is replanned (MoveToStart::plan, or a
-// goal) or fails with Reason::start_mismatch.
+// motion. A job that rests on its path is compared with the position when the arm is not stopped
+// any more (rejoin()).
 struct Located {
   ArmId arm;
   Eigen::VectorXd position;  // of Arm::joints, then Arm::gripper_joints

@@ -1,8 +1,6 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
@@ -66,30 +65,8 @@ void take(State& state, const Stop& input) {
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
+  for (ArmId arm : input.arms) rejoin(state, arm);
   explain_again(state, input.arms);
-}
-
-// Returns the detail of Reason::start_mismatch if the job's arm rests off its path; records how far
-// the arm is from the path otherwise.
-std::optional<std::string> left_path(const State& state, ArmId arm, Record& record) {
-  const Trajectory& motion = *record.job.trajectory;
-  Eigen::VectorXd path;
-  motion.sample_positions(record.job.progress, path);
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    const Joint& joint = state.cell->joint(motion.joints()[j]);
-    if (joint.arm != arm) continue;
-    const double on_path = path[static_cast<Eigen::Index>(j)];
-    const double found = state.arms.rest()[static_cast<Eigen::Index>(motion.joints()[j].index())];
-    const double off = std::abs(found - on_path);
-    record.off_path = std::max(record.off_path, off);
-    if (off <= state.cell->execution.start_tolerance_rad) continue;
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "the arm was moved while it was stopped: %s is at %.6g, its path at %.6g",
-                  joint.name.c_str(), found, on_path);
-    return text;
-  }
-  return std::nullopt;
 }
 
 void take(State& state, const Unlocated& input) {
@@ -110,19 +87,7 @@ void take(State& state, const Located& input) {
   state.arms.locate(*state.cell, input.arm, input.position);
   ++state.version;
   state.lanes.renew_later();
-  if (head != nullptr && head->job.has_started()) {
-    if (auto why = left_path(state, input.arm, *head)) {
-      const bool rejoins = head->job.goal || head->job.terms.move_to_start == MoveToStart::plan;
-      if (rejoins && !why_not_replanned(head->job)) {
-        ask_for_another_way(state, *head, AnotherWay::Cause::blocked);
-      } else {
-        give_up(state, *head,
-                {.then = AfterStop::Then::fail,
-                 .reason = Reason::start_mismatch,
-                 .detail = std::move(*why)});
-      }
-    }
-  }
+  rejoin(state, input.arm);
   compare_again(state);
 }
 void take(State& state, const StartRecorded& input) {
@@ -308,6 +273,7 @@ void Scheduler::on(const MotionReport& input) {
     }
   } else {
     come_to_rest(state_, *record, input);
+    for (ArmId arm : record->job.trajectory->arms()) rejoin(state_, arm);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }
 }
