@@ -26,7 +26,7 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 // A motion that ended away from its goal has failed.
 void Executive::Impl::take(const MotionReport& report) {
-  const Job* job = scheduler_.find(report.job);
+  const Job* job = scheduler_.find(report.step.job);
   const bool is_watched = clock_.monitored && job != nullptr;
   if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();

@@ -19,8 +19,8 @@ namespace armloom {
 struct Judgement {
   Version at = 0;  // zero: not checked yet
   std::vector<Wait> found = {};
-  // The result is void once that job no longer precedes this job in the safe sequence.
-  std::optional<JobId> in_turn_after = {};
+  // The result is void once that step no longer precedes this job in the safe sequence.
+  std::optional<StepId> in_turn_after = {};
 };
 // A rest on the path: after a stop, or until other motions have passed.
 struct Pause {
@@ -179,6 +179,9 @@ struct AnotherWay {
   return nullptr;
 }
 
+// Returns the only step of the job.
+[[nodiscard]] constexpr StepId only_step(JobId job) { return StepId{job, 0}; }
+
 struct Job {
   JobId id;
   TrajectoryPtr trajectory;
@@ -203,6 +206,7 @@ struct Job {
   std::optional<AnotherWay> another_way = {};
   std::optional<JobGoal> goal = {};
 
+  [[nodiscard]] StepId step() const { return only_step(id); }
   template <typename P>
   [[nodiscard]] const P* in() const {
     return std::get_if<P>(&phase);

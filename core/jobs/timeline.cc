@@ -44,14 +44,15 @@ class Timetable {
 
   [[nodiscard]] PredictedLeg leg(std::size_t m) const {
     const bool stuck = is_stuck(m);
-    PredictedLeg leg{.job = motions_[m].job, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
+    PredictedLeg leg{
+        .step = motions_[m].step, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
     if (!stuck && !is_given_up(job(m))) leg.ends = now_ + prediction_.ends[m];
     if (stuck) leg.pauses.push_back(last_pause(m));
     return leg;
   }
 
  private:
-  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].job).job; }
+  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].step).job; }
 
   // Returns what keeps the motion at rest for an unknown time: a stop, or what the last check of a
   // motion that rests on its path has found.
@@ -96,7 +97,7 @@ class Timetable {
     if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
     const auto [at, from] = stages.back();
     if (auto held = held_by(m)) return {now_ + from, std::nullopt, at, std::move(held)};
-    const auto rests = state_.graph.rests_ahead(motions_[m].job);
+    const auto rests = state_.graph.rests_ahead(motions_[m].step);
     const bool is_blocked = rests && *motions_[m].held_at <= at;
     return {now_ + from, std::nullopt, at,
             is_blocked ? wait_for(*rests) : waits_on(m, at, std::nullopt)};
@@ -106,7 +107,7 @@ class Timetable {
   [[nodiscard]] std::optional<Wait> behind(std::size_t m) const {
     for (const std::size_t before : chains_.before(m)) {
       if (is_stuck(before))
-        return Wait{.kind = Wait::Kind::predecessor, .job = motions_[before].job};
+        return Wait{.kind = Wait::Kind::predecessor, .job = motions_[before].step.job};
     }
     return std::nullopt;
   }

@@ -21,7 +21,7 @@ struct Outlook {
 // An admitted motion, or a candidate for admission. In a list, the motions of one arm are in
 // running order, and each begins where the previous one ends.
 struct CoordinatedMotion {
-  JobId job;
+  StepId step;
   std::vector<ArmId> arms;
   Duration duration;
   Duration progress{};                   // as measured

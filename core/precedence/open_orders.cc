@@ -40,8 +40,8 @@ OpenOrders::OpenOrders(const OrderQuestion& question)
   collect_choices();
 }
 
-std::optional<std::size_t> OpenOrders::index_of(JobId job) const {
-  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+std::optional<std::size_t> OpenOrders::index_of(StepId step) const {
+  const auto found = std::ranges::find(motions_, step, &CoordinatedMotion::step);
   if (found == motions_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - motions_.begin());
 }
@@ -58,7 +58,7 @@ void OpenOrders::add(const PairRegions& pair) {
     }
     return;
   }
-  const auto b = index_of(std::get<JobId>(pair.b));
+  const auto b = index_of(std::get<StepId>(pair.b));
   if (!b) return;  // has ended meanwhile
   for (const ConflictRegion& region : pair.regions) add(a, *b, region);
 }
@@ -187,7 +187,7 @@ const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first, bool at
   const bool begins = second.authority <= Duration{};
   std::optional<Precedence>& made = order.made[variant(a_first, at_start && begins)];
   if (!made) {
-    made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, a_first,
+    made.emplace(motions_[order.a].step, motions_[order.b].step, order.region, a_first,
                  at_start && begins, second.outlook.pace / first.outlook.pace);
   }
   return *made;
@@ -267,8 +267,8 @@ void OpenOrders::report(std::size_t d) {
   const ConflictRegion& region = order.region;
   const bool own_is_a = order.a >= first_candidate_;
   answer_.blockers.push_back(
-      {.blocked = motions_[own_is_a ? order.a : order.b].job,
-       .other = motions_[own_is_a ? order.b : order.a].job,
+      {.blocked = motions_[own_is_a ? order.a : order.b].step,
+       .other = motions_[own_is_a ? order.b : order.a].step,
        .arm = std::nullopt,
        .proximity = own_is_a ? region.proximity : turned_around(region.proximity),
        .own_time = own_is_a ? region.time_a : region.time_b,

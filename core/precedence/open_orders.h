@@ -78,7 +78,7 @@ class OpenOrders {
   [[nodiscard]] PassingOrders stuck(const Prediction& prediction);
 
  private:
-  [[nodiscard]] std::optional<std::size_t> index_of(JobId job) const;
+  [[nodiscard]] std::optional<std::size_t> index_of(StepId step) const;
   void add(const PairRegions& pair);
   void add_decided(const Precedence& precedence);
   void add(std::size_t a, std::size_t b, const ConflictRegion& region);

@@ -16,10 +16,10 @@ namespace armloom {
 
 // The reason why a motion is not admitted, or why an admitted motion cannot go on.
 struct Blocker {
-  JobId blocked;
-  std::optional<JobId> other;  // the motion that passes first, or that `blocked` cannot pass ...
-  std::optional<ArmId> arm;    // ... or the arm at rest in its path
-  Proximity proximity;         // evidence; body_a belongs to `blocked`
+  StepId blocked;
+  std::optional<StepId> other;  // the motion that passes first, or that `blocked` cannot pass ...
+  std::optional<ArmId> arm;     // ... or the arm at rest in its path
+  Proximity proximity;          // evidence; body_a belongs to `blocked`
   Duration own_time;
   Duration other_time;
 };

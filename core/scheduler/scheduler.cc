@@ -51,7 +51,7 @@ void note_progress(State& state, Record& record) {
     record.job.note_start(state.now);
     state.jobs.changed(record);
   }
-  if (moving != nullptr) extend_authority(state, record.job.id);
+  if (moving != nullptr) extend_authority(state, record.job.step());
 }
 
 // ---- Inputs that concern the shared state alone ----
@@ -115,7 +115,7 @@ void take(State& state, const Located& input) {
   compare_again(state);
 }
 void take(State& state, const StartRecorded& input) {
-  Record* record = state.jobs.find(input.job);
+  Record* record = state.jobs.find(input.step);
   if (record == nullptr) return;
   record->job.awaits_record = false;
   renew_clocks(state, record->job, true);
@@ -265,7 +265,7 @@ void Scheduler::on(const Replan& input) {
 
 void Scheduler::on(const PlanMade& input) {
   take_plan(state_, input);
-  if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
+  if (take_other_way(state_, input)) cycles_.has_opened(state_, input.step.job);
   take_way_aside(state_, input);
   take_detour(state_, input);
 }
@@ -283,12 +283,12 @@ void Scheduler::on(const Cancel& input) {
 }
 
 void Scheduler::on(const MotionReport& input) {
-  Record* record = state_.jobs.find(input.job);
+  Record* record = state_.jobs.find(input.step);
   if (record == nullptr || record->job.has_ended()) return;
   const Duration before = std::exchange(record->job.progress, input.progress);
   record->job.times.measured_at = state_.now;
   if (input.progress > before) note_moved(state_, record->job);
-  state_.graph.progress(record->job.id, input.progress);
+  state_.graph.progress(input.step, input.progress);
   see_pauses(state_, *record, before);
   if (input.kind == MotionReport::Kind::progressed) {
     note_progress(state_, *record);
@@ -325,7 +325,7 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const Job& head = state_.jobs.at(queue.front()).job;
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
-  return in_motion ? std::optional(queue.front()) : std::nullopt;
+  return in_motion ? std::optional(head.id) : std::nullopt;
 }
 
 void Scheduler::forget(JobId ended) {
@@ -388,7 +388,7 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
   }
   if (question.candidates.size() != 1) return std::nullopt;
   const std::vector<CoordinatedMotion> candidate{
-      as_candidate(state_, state_.jobs.at(question.candidates.front().job).job)};
+      as_candidate(state_, state_.jobs.at(question.candidates.front().step).job)};
   const PassingOrders orders =
       orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
   if (!orders.blockers.empty()) return std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 
 void renew_starts(State& state) {
   for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
-    Record& record = state.jobs.at(leg.job);
+    Record& record = state.jobs.at(leg.step);
     const bool is_to_start = record.job.in<Admitted>() != nullptr && !record.job.has_started();
     if (!is_to_start || !leg.starts || record.job.times.scheduled_at == leg.starts) continue;
     record.job.times.scheduled_at = leg.starts;
@@ -55,8 +55,8 @@ void set_speed(State& state, const SetSpeed& input) {
 }
 
 void explain_again(State& state, ArmId arm) {
-  for (JobId id : state.jobs.queues()[arm]) {
-    Record& record = state.jobs.at(id);
+  for (StepId step : state.jobs.queues()[arm]) {
+    Record& record = state.jobs.at(step);
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
     };

@@ -11,10 +11,10 @@ constexpr std::size_t kBehindFirst[] = {0};
 
 using ::testing::ElementsAre;
 
-constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
+constexpr StepId kA{JobId{1}}, kB{JobId{2}}, kC{JobId{3}}, kNext{JobId{4}};
 
-CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
-  return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
+CoordinatedMotion motion(StepId step, std::uint32_t arm, Duration duration) {
+  return {.step = step, .arms = {ArmId{arm}}, .duration = duration};
 }
 
 struct OrdersInTime : ::testing::Test {
@@ -215,7 +215,7 @@ TEST(Prediction, ReturnsNulloptForStuckMotions) {
 }
 
 TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
-  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
   EXPECT_THAT(chains.before(0), ElementsAre());
   EXPECT_THAT(chains.before(2), ElementsAre(0u, 1u));
@@ -230,7 +230,7 @@ TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
 }
 
 TEST(MotionChains, TeamIsPresentWhileOneOfItsArmsIs) {
-  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), team});
   EXPECT_TRUE(chains.stands(1));
   EXPECT_TRUE(chains.moves_on(0));

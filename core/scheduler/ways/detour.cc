@@ -53,12 +53,12 @@ Configuration places_held(const State& state, const Record& record,
                           const std::vector<PairRegions>& regions) {
   Configuration at = state.arms.rest();
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Trajectory& trajectory = *state.jobs.at(motion.job).job.trajectory;
+    const Trajectory& trajectory = *state.jobs.at(motion.step).job.trajectory;
     set_joints(at, trajectory, trajectory.goal());
   }
   Eigen::VectorXd held;
   for (const PairRegions& pair : regions) {
-    const auto* other = std::get_if<JobId>(&pair.b);
+    const auto* other = std::get_if<StepId>(&pair.b);
     if (other == nullptr || pair.regions.empty()) continue;
     const Trajectory& trajectory = *state.jobs.at(*other).job.trajectory;
     Duration from{}, to{};
@@ -86,7 +86,7 @@ void ask(State& state, Record& record) {
                         .at = detour.beside,
                         .seed = job.id.value() + static_cast<std::uint64_t>(detour.tries),
                         .budget = kDetourBudget};
-  state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
+  state.decided.effects.push_back(PlanMotion{job.step(), *detour.question, std::move(question)});
 }
 
 // Whether another one is worth the question.
@@ -155,7 +155,7 @@ bool gives_detour_up(State& state, Record& record) {
 }
 
 void take_detour(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
+  Record* record = state.jobs.find(answer.step);
   if (record == nullptr || !record->job.goal || !record->job.goal->detour) return;
   Detour& detour = *record->job.goal->detour;
   if (detour.question != answer.question) return;

@@ -29,8 +29,8 @@ bool comes_to_its_end(const Job& job) { return job.in<Queued>() == nullptr; }
 
 // Where the arm comes to rest by what is admitted.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
-  for (JobId id : state.jobs.queues()[arm]) {
-    const Job& job = state.jobs.at(id).job;
+  for (StepId step : state.jobs.queues()[arm]) {
+    const Job& job = state.jobs.at(step).job;
     if (comes_to_its_end(job)) follow_to_end(at, *state.cell, arm, *job.trajectory);
   }
 }
@@ -52,9 +52,9 @@ std::optional<Configuration> at_its_turn(const State& state, const Record& recor
   const auto& queue = state.jobs.queues()[arm];
   const bool is_taken = record.job.goal->way().goal.arm == arm;
   std::size_t before = is_taken ? queue.size() : place_on(state, record, arm);
-  for (JobId id : queue) {
-    if (before-- == 0 || id == record.job.id) break;
-    const Job& other = state.jobs.at(id).job;
+  for (StepId step : queue) {
+    if (before-- == 0 || step == record.job.step()) break;
+    const Job& other = state.jobs.at(step).job;
     if (other.has_open_arm()) continue;
     if (other.is_unplanned()) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -76,8 +76,8 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     follow_admitted(at, state, arm);
     const bool was_passed_there = way.beside.size() != 0 && is_as_asked(state, way, at, arm);
     if (was_passed_there || is_found_in_the_way(state, record.job, arm)) continue;
-    for (JobId id : state.jobs.queues()[arm]) {
-      const Record& other = state.jobs.at(id);
+    for (StepId step : state.jobs.queues()[arm]) {
+      const Record& other = state.jobs.at(step);
       const bool goes_before = other.turn < turn && !comes_to_its_end(other.job) &&
                                other.job.knows_its_end() && !other.job.has_open_arm();
       if (goes_before) follow_to_end(at, *state.cell, arm, *other.job.trajectory);
@@ -119,7 +119,8 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   way.question = ++record.asking.plans;
   way.asked_at = state.version;
   way.beside = question.at;
-  state.decided.effects.push_back(PlanMotion{record.job.id, *way.question, std::move(question)});
+  state.decided.effects.push_back(
+      PlanMotion{record.job.step(), *way.question, std::move(question)});
 }
 
 enum class Answered {
@@ -238,7 +239,7 @@ void forget_plan(State& state, Record& record) {
 }
 
 void take_plan(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
+  Record* record = state.jobs.find(answer.step);
   if (record == nullptr || record->job.has_ended() || !record->job.goal) return;
   JobGoal& goal = *record->job.goal;
   const auto asked = std::ranges::find(goal.ways, answer.question, &GoalWay::question);
@@ -252,7 +253,7 @@ void take_plan(State& state, const PlanMade& answer) {
   }
   asked->is_planned = true;
   asked->goes_through = answer.goes_through;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.job, *answer.trajectory);
+  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.step, *answer.trajectory);
   if (record->job.has_open_arm()) {
     const auto which = static_cast<std::size_t>(asked - goal.ways.begin());
     state.jobs.set_alternative(*record, which, answer.trajectory, std::move(leg));

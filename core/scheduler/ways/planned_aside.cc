@@ -16,11 +16,12 @@ void ask_for_way_aside(State& state, const YieldTrial& move) {
   PlanQuestion question{.goal = {.arm = move.arm, .to = ClearOf{job.trajectory, job.progress}},
                         .at = rest_after_admitted(state),
                         .seed = job.id.value()};
-  state.decided.effects.push_back(PlanMotion{job.id, *tried.planned.question, std::move(question)});
+  state.decided.effects.push_back(
+      PlanMotion{job.step(), *tried.planned.question, std::move(question)});
 }
 
 void take_way_aside(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
+  Record* record = state.jobs.find(answer.step);
   if (record == nullptr || record->job.has_ended()) return;
   for (auto& [arm, tried] : record->yields) {
     if (tried.planned.question != answer.question) continue;

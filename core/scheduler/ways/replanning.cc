@@ -34,7 +34,7 @@ double speed_of(const Cell& cell, const Trajectory& motion) {
 // A pose that others begin at is reached as it was planned; a straight line stays one.
 MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
   const ArmId arm = arm_of(job);
-  const bool is_last = state.jobs.queues()[arm].back() == job.id;
+  const bool is_last = state.jobs.queues()[arm].back() == job.step();
   if (job.goal && (is_last || job.goal->way().goal.straight)) return job.goal->way().goal;
   follow_to_end(end, *state.cell, arm, *job.trajectory);
   return {.arm = arm,
@@ -80,7 +80,7 @@ void ask_at_rest(State& state, Record& record) {
   other.beside = question.at;
   other.asked_at = state.version;
   ++other.tries;
-  state.decided.effects.push_back(PlanMotion{job.id, *other.question, std::move(question)});
+  state.decided.effects.push_back(PlanMotion{job.step(), *other.question, std::move(question)});
 }
 
 void expire(State& state, Record& record, const std::string& why) {
@@ -131,7 +131,7 @@ void plan_other_ways(State& state) {
 }
 
 bool take_other_way(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
+  Record* record = state.jobs.find(answer.step);
   if (record == nullptr || !record->job.is_replanned_now() || record->job.has_ended()) return false;
   AnotherWay& other = *record->job.another_way;
   if (other.question != answer.question) return false;
@@ -143,7 +143,7 @@ bool take_other_way(State& state, const PlanMade& answer) {
     return false;
   }
   other.is_open = false;
-  state.jobs.being_replanned().erase(answer.job);
+  state.jobs.being_replanned().erase(answer.step.job);
   state.jobs.explain(*record);
   state.jobs.changed(*record);
   if (answer.trajectory && is_fit) {
