@@ -18,7 +18,7 @@ namespace armloom {
 // Retreats of one arm tried for a job (yield_moves.h).
 struct YieldsTried {
   struct Planned {
-    std::optional<std::uint64_t> question = {};  // number of the open question
+    PlanRequest request = {};
     bool is_answered = false;
     TrajectoryPtr way = nullptr;  // null if no path was found
   };

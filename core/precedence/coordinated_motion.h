@@ -24,9 +24,8 @@ struct CoordinatedMotion {
   StepId step;
   std::vector<ArmId> arms;
   Duration duration;
-  Duration progress{};                   // as measured
-  Duration authority{};                  // granted so far; never reduced
-  std::optional<Duration> held_at = {};  // progress at which an arm at rest in the path holds it
+  Duration progress{};   // as measured
+  Duration authority{};  // granted so far; never reduced
   int priority = 0;
   Duration horizon{};  // largest lead of its authority over its progress
   Outlook outlook = {};

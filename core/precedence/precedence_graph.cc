@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/precedence/motion_chains.h"
-
 namespace armloom {
 namespace {
 
@@ -62,7 +60,7 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   std::erase_if(precedences_, [this](const Precedence& precedence) {
     return !precedence.limit(find(precedence.first())->progress);
   });
-  tell_holds();
+  renew_held_at();
 }
 
 void PrecedenceGraph::progress(StepId step, Duration progress) {
@@ -148,12 +146,7 @@ bool PrecedenceGraph::is_held_by(StepId step, const std::vector<ArmId>& arms) co
 }
 
 bool PrecedenceGraph::is_acyclic() const {
-  const MotionChains chains(motions_);
-  std::vector<MotionAhead> ahead;
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
-  }
-  return predict(ahead, dependencies()).stuck.empty();
+  return predict(motions_, MotionChains(motions_), dependencies()).stuck.empty();
 }
 
 void PrecedenceGraph::granted(StepId step, Duration authority) {
@@ -257,7 +250,7 @@ void PrecedenceGraph::erase(StepId step) {
   });
   std::erase_if(blockades_, [step](const Blockade& blockade) { return blockade.step == step; });
   std::erase_if(motions_, [step](const CoordinatedMotion& motion) { return motion.step == step; });
-  tell_holds();
+  renew_held_at();
 }
 
 const PrecedenceGraph::Blockade* PrecedenceGraph::nearest_blockade(
@@ -270,10 +263,11 @@ const PrecedenceGraph::Blockade* PrecedenceGraph::nearest_blockade(
   return nearest;
 }
 
-void PrecedenceGraph::tell_holds() {
-  for (CoordinatedMotion& motion : motions_) {
+void PrecedenceGraph::renew_held_at() {
+  held_at_.clear();
+  for (const CoordinatedMotion& motion : motions_) {
     const Blockade* nearest = nearest_blockade(motion);
-    motion.held_at = nearest != nullptr ? std::optional(nearest->limit) : std::nullopt;
+    held_at_.push_back(nearest != nullptr ? std::optional(nearest->limit) : std::nullopt);
   }
 }
 

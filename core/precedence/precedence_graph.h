@@ -30,7 +30,7 @@ class PrecedenceGraph {
   // to this graph.
   [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
                                        const std::vector<PairRegions>& regions) const {
-    return {motions_, precedences_, candidates, regions, work_behind_};
+    return {motions_, precedences_, held_at_, candidates, regions, work_behind_};
   }
   void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
 
@@ -42,8 +42,10 @@ class PrecedenceGraph {
   // Returns what holds the motion at its limit; nullopt if it may go to its end, or if it only
   // waits for an earlier motion of its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(StepId step) const;
-  // Returns the arm at rest that holds the motion at its held_at; nullopt if there is none. No
-  // admitted motion will move that arm.
+  // Returns by motion where an arm at rest in its path holds it (the limit of rests_ahead()).
+  [[nodiscard]] const HeldAt& held_at() const { return held_at_; }
+  // Returns the arm at rest that holds the motion; nullopt if there is none. No admitted motion
+  // will move that arm.
   [[nodiscard]] std::optional<Blocker> rests_ahead(StepId step) const;
   // Returns the precedences, with motions as indices into motions(), for predict().
   [[nodiscard]] std::vector<Dependency> dependencies() const;
@@ -91,11 +93,12 @@ class PrecedenceGraph {
   [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
   void block_others(const CoordinatedMotion& motion, const Rest& rest);
   void erase(StepId step);
-  void tell_holds();
+  void renew_held_at();
 
   std::vector<CoordinatedMotion> motions_;  // of one arm: in running order
   std::vector<Precedence> precedences_;
   std::vector<Blockade> blockades_;
+  HeldAt held_at_;
   std::vector<Duration> work_behind_;
 };
 

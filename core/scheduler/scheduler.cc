@@ -18,8 +18,6 @@
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
-#include "core/scheduler/ways/detour.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/without_orders.h"
@@ -237,13 +235,6 @@ void Scheduler::on(const Replan& input) {
   Record* record = state_.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended() || why_not_replanned(record->job)) return;
   ask_for_another_way(state_, *record, AnotherWay::Cause::client);
-}
-
-void Scheduler::on(const PlanMade& input) {
-  take_plan(state_, input);
-  if (take_other_way(state_, input)) cycles_.has_opened(state_, input.step.job);
-  take_way_aside(state_, input);
-  take_detour(state_, input);
 }
 
 void Scheduler::on(const Cancel& input) {

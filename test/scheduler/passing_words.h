@@ -18,4 +18,9 @@ inline CoordinatedMotion motion(StepId step, std::uint32_t arm, Duration duratio
   return {.step = step, .arms = {ArmId{arm}}, .duration = duration};
 }
 
+inline Prediction predicted(const std::vector<CoordinatedMotion>& motions,
+                            const std::vector<Dependency>& dependencies) {
+  return predict(motions, MotionChains(motions), dependencies);
+}
+
 }  // namespace armloom::test
