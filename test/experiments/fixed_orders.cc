@@ -20,8 +20,8 @@ class FixedOrders final : public Policy {
       return motions;
     };
     const auto admitted = keep(question.admitted), candidates = keep(question.candidates);
-    return coordinated_->decide(
-        {admitted, question.precedences, candidates, question.regions, question.work_behind});
+    return coordinated_->decide({admitted, question.precedences, question.held_at, candidates,
+                                 question.regions, question.work_behind});
   }
 
  private:

@@ -14,8 +14,8 @@ class Reckless final : public Policy {
   CheckMethod method() const override { return armloom::Coordinated{0.001}; }
   PassingOrders decide(const OrderQuestion& question) const override {
     const std::vector<PairRegions> none;
-    return orders_apart(
-        {question.admitted, question.precedences, question.candidates, none, question.work_behind});
+    return orders_apart({question.admitted, question.precedences, question.held_at,
+                         question.candidates, none, question.work_behind});
   }
 };
 
