@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "server/messages/fault.h"
 #include "server/messages/text_parts.h"
 
 namespace armloom {
 namespace {
 
-// Columns as wide as their longest cell; the last column is not padded.
+// Columns as wide as their longest cell. No line ends with a space.
 using Row = std::vector<std::string>;
 std::string table_of(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
@@ -144,7 +145,9 @@ std::string fault_list_text(const Schema& faults, const Present& now) {
     const char* const lasts = fault.contains("remaining_s") ? "remaining_s" : "for_s";
     const auto remaining = number_at(fault, lasts);
     rows.push_back({text_at(fault, "id"), text_at(fault, "arm"), text_at(fault, "kind"),
-                    printed("%g", number_at(fault, "value").value_or(0.0)),
+                    has_value(text_at(fault, "kind"))
+                        ? printed("%g", number_at(fault, "value").value_or(0.0))
+                        : "-",
                     waits_s > 0.0 ? "in " + in_seconds(waits_s) : "now",
                     remaining ? in_seconds(*remaining) : "-"});
   }
@@ -178,7 +181,7 @@ std::string problem_text(const Schema& problem) {
     std::string text =
         pointer.empty() || pointer == "request target" ? detail : pointer + ": " + detail;
     const auto value = fault.find("value");
-    if (value != fault.end()) {
+    if (value != fault.end() && !value->is_null()) {
       const std::string found = value->is_string() ? value->get<std::string>() : value->dump();
       if (!found.empty() && detail.find(found) == detail.npos) text += " (found " + found + ")";
     }
