@@ -13,6 +13,9 @@ Present present(const Status& status, const Cell& cell) {
   Present now{to_seconds(status.time), {}};
   for (std::uint32_t a = 0; a < status.arms.size(); ++a) {
     const ArmStatus& arm = status.arms[a];
+    if (const auto job = arm.job ? status.jobs.find(*arm.job) : nullptr) {
+      if (job->motion.ends_at_rest) now.ending.push_back(job->key);
+    }
     const bool has_connected = arm.link != ArmLink::State::connecting;
     if (has_connected && arm.link != ArmLink::State::lost) continue;
     now.unlinked.push_back({cell.arm(ArmId{a}).name, has_connected, arm.link_detail});
