@@ -46,8 +46,9 @@ struct ArmCommand {
   };
   // Drops the motion: the arm becomes idle. Rejected while the arm moves.
   struct Release {};
-  // Speed override: largest share, 0 to 1, of the planned rate, from now on and for all later
-  // motions. The rate changes within the joints' limits. At 0 the arm comes to rest on its path.
+  // Speed override. The rate of an arm is trajectory time per cell time; the planned rate is 1.
+  // `share`: the largest permitted rate, 0 to 1, from now on and for all later motions. The rate
+  // changes within the joints' limits. At 0 the arm comes to rest on its path.
   struct SetSpeed {
     double share = 1.0;
   };
@@ -124,9 +125,9 @@ struct ArmConnection {
   bool operator==(const ArmConnection&) const = default;
 };
 
-// The controller of one arm: its arm joints, then its gripper joints. A separate party: commands
-// reach it later, or never; its reports arrive late, or never. The caller draws conclusions only
-// from reports (ArmLink). Confined to the executive's strand. Never blocks.
+// The controller of one arm: its arm joints, then its gripper joints. A separate component:
+// commands reach it later, or never; its reports arrive late, or never. The caller draws
+// conclusions only from reports (ArmLink). Confined to the executive's strand. Never blocks.
 class ArmController {
  public:
   virtual ~ArmController() = default;

@@ -21,8 +21,8 @@ namespace armloom {
 //              | the connection is down or new                       | lost
 //   lost       | report of a connection that is up                   | up
 //
-// The age of a report is counted from its measurement on the controller's clock: the fastest
-// report so far counts as undelayed.
+// The age of a report is counted from its measurement on the controller's clock. The report with
+// the shortest delay so far is taken as having no delay.
 //
 // Commands that would let the arm move wait until the link is up. A brake is sent in any state. It
 // drops the commands that wait: a motion that was never sent counts as stopped at its start.

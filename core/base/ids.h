@@ -31,6 +31,17 @@ using ObjectId = Id<struct ObjectTag>;  // a collision object of the planning sc
 // instead (JobView::key).
 using JobId = Id<struct JobTag, std::uint64_t>;
 
+// A step of a job: the unit of admission, movement authority and conflict regions. Today each job
+// has one step, with index 0. The steps of one job compare in the order of execution, steps of
+// different jobs in the order of submission.
+struct StepId {
+  JobId job;
+  std::uint32_t index;
+
+  constexpr explicit StepId(JobId of_job, std::uint32_t at = 0) : job(of_job), index(at) {}
+  constexpr auto operator<=>(const StepId&) const = default;
+};
+
 // Version of the data on which a check depends (reservations, scene). A verdict names the version
 // that was checked.
 using Version = std::uint64_t;
@@ -41,5 +52,12 @@ template <class Tag, class Rep>
 struct std::hash<armloom::Id<Tag, Rep>> {
   std::size_t operator()(const armloom::Id<Tag, Rep>& id) const noexcept {
     return std::hash<Rep>{}(id.value());
+  }
+};
+
+template <>
+struct std::hash<armloom::StepId> {
+  std::size_t operator()(const armloom::StepId& id) const noexcept {
+    return std::hash<armloom::JobId>{}(id.job) ^ (std::size_t{id.index} << 32U);
   }
 };

@@ -27,8 +27,8 @@ struct ConflictRegion {
 // Conflict regions of a candidate and another motion or resting arm. Every state from the
 // question's progress on and outside the boxes is certified free, with tracking errors included.
 struct PairRegions {
-  JobId a;                       // a candidate
-  std::variant<JobId, ArmId> b;  // another motion, or a resting arm: its times are zero
+  StepId a;                       // a candidate
+  std::variant<StepId, ArmId> b;  // another motion, or a resting arm: its times are zero
   std::vector<ConflictRegion> regions;
 };
 

@@ -13,11 +13,12 @@
 
 namespace armloom {
 
-// One job's motion in a collision check. At the question's instant the motion is at `progress`
-// (trajectory time, <= duration). From there it runs to its end and then rests at the goal. If
-// `progress` is negative, the arm first rests at the motion's start for the duration -progress.
+// The motion of one step in a collision check. At the question's instant the motion is at
+// `progress` (trajectory time, <= duration). From there it runs to its end and then rests at the
+// goal. If `progress` is negative, the arm first rests at the motion's start for the duration
+// -progress.
 struct Motion {
-  JobId job;
+  StepId step;
   TrajectoryPtr trajectory;
   Duration progress;
   bool to_come = false;  // Coordinated only: its arm executes another motion first

@@ -19,17 +19,17 @@ namespace armloom {
 // Evidence of a conflict: the bodies that come too close, with the place and times.
 struct Conflict {
   enum class With {
-    motion,  // another job's motion, or its arms at rest after its end
+    motion,  // another step's motion, or its arms at rest after its end
     rest,    // an arm at rest that no job will move
     scene,   // an object, or a stationary link
     self,    // the candidate's own links (Cell::is_own)
   };
   With with;
-  JobId candidate;                 // the job whose motion comes too close
-  std::optional<JobId> other_job;  // With::motion
-  Proximity proximity;             // body_a belongs to the candidate
-  Duration own_time;               // trajectory time of the candidate
-  Duration other_time;             // trajectory time of the other job, or zero
+  StepId candidate;                  // the step whose motion comes too close
+  std::optional<StepId> other_step;  // With::motion
+  Proximity proximity;               // body_a belongs to the candidate
+  Duration own_time;                 // trajectory time of the candidate
+  Duration other_time;               // trajectory time of the other step, or zero
 };
 
 // Answer to a PassageQuestion. A passage that cannot be decided within the budget is `blocked`.

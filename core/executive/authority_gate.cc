@@ -34,7 +34,7 @@ AuthorityGate::AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint pr
       motions_(motions),
       guard_(guarded_arms(*cell_), motions.measured(), std::move(present)),
       calls_(std::move(calls)),
-      jobs_(cell_->arms.size()) {
+      steps_(cell_->arms.size()) {
   for (const ArmId arm : all_arms(*cell_)) guard_.forget_position(arm);
 }
 
@@ -47,7 +47,7 @@ void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
 // The certifier's open answer is about the scene before: it does not count.
 void AuthorityGate::look_at(const SceneFingerprint& present) {
   guard_.look_at(present);
-  for (auto& [job, kept] : kept_) kept.answers = asked_ == job ? -1 : 0;
+  for (auto& [step, kept] : kept_) kept.answers = asked_ == step ? -1 : 0;
 }
 
 std::optional<GuardRefusal> AuthorityGate::passes(const TrajectoryPtr& motion,
@@ -58,49 +58,49 @@ std::optional<GuardRefusal> AuthorityGate::passes(const TrajectoryPtr& motion,
 }
 
 void AuthorityGate::dispatch(const Dispatch& dispatch, const TrajectoryPtr& motion) {
-  told_[dispatch.job] = motion;
-  for (const ArmId arm : motion->arms()) jobs_[arm.index()] = dispatch.job;
+  told_[dispatch.step] = motion;
+  for (const ArmId arm : motion->arms()) steps_[arm.index()] = dispatch.step;
   const auto refusal = passes(motion, dispatch.from_progress, dispatch.authority);
-  if (refusal) return keep(dispatch.job, {motion, dispatch.authority, *refusal, now_, dispatch});
+  if (refusal) return keep(dispatch.step, {motion, dispatch.authority, *refusal, now_, dispatch});
   motions_.dispatch(dispatch, motion);
 }
 
 void AuthorityGate::grant(const Grant& grant) {
-  const auto before = kept_.find(grant.job);
+  const auto before = kept_.find(grant.step);
   if (before != kept_.end()) {
     before->second.authority = std::max(before->second.authority, grant.authority);
     return;
   }
-  const TrajectoryPtr& motion = told_.at(grant.job);
+  const TrajectoryPtr& motion = told_.at(grant.step);
   const auto refusal = passes(motion, std::nullopt, grant.authority);
-  if (refusal) return keep(grant.job, {motion, grant.authority, *refusal, now_});
+  if (refusal) return keep(grant.step, {motion, grant.authority, *refusal, now_});
   motions_.grant(grant);
 }
 
-void AuthorityGate::brake(JobId job) {
-  const auto kept = kept_.find(job);
+void AuthorityGate::brake(StepId step) {
+  const auto kept = kept_.find(step);
   if (kept != kept_.end() && kept->second.start) {
     kept->second.is_braked = true;
     return;
   }
   if (kept != kept_.end()) kept_.erase(kept);
-  motions_.brake(job);
+  motions_.brake(step);
 }
 
-void AuthorityGate::release(JobId job) {
-  kept_.erase(job);
-  told_.erase(job);
-  motions_.release(job);
+void AuthorityGate::release(StepId step) {
+  kept_.erase(step);
+  told_.erase(step);
+  motions_.release(step);
 }
 
-void AuthorityGate::keep(JobId job, Kept kept) {
-  Kept& now = kept_.insert_or_assign(job, std::move(kept)).first->second;
-  if (now.refusal.why != Why::uncertified) report(job, now);
+void AuthorityGate::keep(StepId step, Kept kept) {
+  Kept& now = kept_.insert_or_assign(step, std::move(kept)).first->second;
+  if (now.refusal.why != Why::uncertified) report(step, now);
 }
 
-void AuthorityGate::report(JobId job, Kept& kept) {
+void AuthorityGate::report(StepId step, Kept& kept) {
   if (std::exchange(kept.is_reported, true)) return;
-  calls_.refused(job, kept.refusal);
+  calls_.refused(step, kept.refusal);
 }
 
 // ---- Each control cycle ----
@@ -113,19 +113,19 @@ const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
   try_again();
   ask();
   const auto braked = [](const auto& kept) { return kept.second.is_braked; };
-  for (const auto& [job, kept] : kept_) {
-    if (kept.is_braked) reports_.push_back(stopped(job, kept));
+  for (const auto& [step, kept] : kept_) {
+    if (kept.is_braked) reports_.push_back(stopped(step, kept));
   }
   std::erase_if(kept_, braked);
-  std::ranges::stable_sort(reports_, {}, &MotionReport::job);
+  std::ranges::stable_sort(reports_, {}, &MotionReport::step);
   return reports_;
 }
 
 // Tells the guard where moving arms are, and in each cycle where one of the arms at rest is. The
 // position of an arm whose controller has not connected yet is not known.
 void AuthorityGate::see_positions() {
-  looked_at_ = (looked_at_ + 1) % static_cast<std::uint32_t>(jobs_.size());
-  for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
+  looked_at_ = (looked_at_ + 1) % static_cast<std::uint32_t>(steps_.size());
+  for (std::uint32_t a = 0; a < steps_.size(); ++a) {
     const ArmId arm{a};
     const ArmPosition& position = guard_.position(arm);
     if (motions_.link(arm).state() == ArmLink::State::connecting) continue;
@@ -142,7 +142,7 @@ void AuthorityGate::see_positions() {
 
 void AuthorityGate::try_again() {
   for (auto kept = kept_.begin(); kept != kept_.end();) {
-    auto& [job, what] = *kept;
+    auto& [step, what] = *kept;
     if (what.is_braked) {
       ++kept;
       continue;
@@ -151,7 +151,7 @@ void AuthorityGate::try_again() {
     if (refusal) {
       what.refusal = *refusal;
       const bool may_come = now_ - what.since < kMissing || what.answers < kAnswers;
-      if (refusal->why != Why::uncertified || !may_come) report(job, what);
+      if (refusal->why != Why::uncertified || !may_come) report(step, what);
       ++kept;
       continue;
     }
@@ -159,16 +159,16 @@ void AuthorityGate::try_again() {
       what.start->authority = what.authority;
       motions_.dispatch(*what.start, what.motion);
     } else {
-      motions_.grant({job, what.authority});
+      motions_.grant({step, what.authority});
     }
-    const JobId passed = job;
+    const StepId passed = step;
     const bool was_reported = what.is_reported;
     kept = kept_.erase(kept);
     if (was_reported) calls_.allowed(passed);
   }
 }
 
-// Asks for missing certificates, one job after the other, with all other arms where they are.
+// Asks for missing certificates, one step after the other, with all other arms where they are.
 void AuthorityGate::ask() {
   if (asked_) return;
   auto next = kept_.end();
@@ -183,21 +183,21 @@ void AuthorityGate::ask() {
   calls_.certify(question_about(next->first, next->second));
 }
 
-Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
+Question AuthorityGate::question_about(StepId step, const Kept& kept) const {
   Question question{.version = 0,
                     .start_at = now_,
                     .candidates = {},
                     .others = {},
                     .rest = guard_.rest(),
                     .method = Coordinated{TrackingErrors(*cell_)}};
-  std::map<JobId, Motion> others;
-  for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
+  std::map<StepId, Motion> others;
+  for (std::uint32_t a = 0; a < steps_.size(); ++a) {
     const ArmPosition& position = guard_.position(ArmId{a});
     const bool is_own =
         std::ranges::find(kept.motion->arms(), ArmId{a}) != kept.motion->arms().end();
-    if (is_own || position.at_rest || !jobs_[a]) continue;
+    if (is_own || position.at_rest || !steps_[a]) continue;
     Motion& other =
-        others.try_emplace(*jobs_[a], Motion{*jobs_[a], position.motion, position.measured})
+        others.try_emplace(*steps_[a], Motion{*steps_[a], position.motion, position.measured})
             .first->second;
     other.progress = std::min(other.progress, position.measured);
     const double error = cell_->tracking_error(cell_->arm(ArmId{a}).robot);
@@ -209,16 +209,16 @@ Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
     error = std::max(error, cell_->tracking_error(cell_->arm(arm).robot));
   }
   const double off_path = guard_.off_path(kept.motion, kept.from());
-  question.candidates = {Motion{.job = job,
+  question.candidates = {Motion{.step = step,
                                 .trajectory = kept.motion,
-                                .progress = stopped(job, kept).progress,
+                                .progress = stopped(step, kept).progress,
                                 .off_path = certified_error(off_path, error)}};
   if (kept.answers > 0) question.effort = kEffortGrowth;
   return question;
 }
 
 // A motion that was braked before its arms were told of it.
-MotionReport AuthorityGate::stopped(JobId job, const Kept& kept) const {
+MotionReport AuthorityGate::stopped(StepId step, const Kept& kept) const {
   Duration last = kept.motion->duration(), farthest{};
   for (const ArmId arm : kept.motion->arms()) {
     const ArmPosition& position = guard_.position(arm);
@@ -227,13 +227,13 @@ MotionReport AuthorityGate::stopped(JobId job, const Kept& kept) const {
     last = std::min(last, at);
     farthest = std::max(farthest, at);
   }
-  return {job,  MotionReport::Kind::stopped,
+  return {step, MotionReport::Kind::stopped,
           last, joints_of(motions_.measured(), kept.motion->joints()),
           "",   farthest};
 }
 
-std::optional<GuardRefusal> AuthorityGate::refusal(JobId job) const {
-  const auto kept = kept_.find(job);
+std::optional<GuardRefusal> AuthorityGate::refusal(StepId step) const {
+  const auto kept = kept_.find(step);
   const bool is_reported = kept != kept_.end() && kept->second.is_reported;
   return is_reported ? std::optional(kept->second.refusal) : std::nullopt;
 }

@@ -22,9 +22,9 @@ class AuthorityGate {
     std::function<void(const Question&)> certify;
     // The guard refuses authority that the scheduler should not have granted. Called once per
     // refusal.
-    std::function<void(JobId, const GuardRefusal&)> refused;
+    std::function<void(StepId, const GuardRefusal&)> refused;
     // A refusal reported by `refused` is now allowed.
-    std::function<void(JobId)> allowed;
+    std::function<void(StepId)> allowed;
   };
   // `cell` and `motions` outlive this object. All arms are at rest.
   AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls);
@@ -44,19 +44,19 @@ class AuthorityGate {
 
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& motion);
   void grant(const Grant& grant);
-  void brake(JobId job);
-  void release(JobId job);
+  void brake(StepId step);
+  void release(StepId step);
 
-  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
 
-  // Returns the refusal, reported by Calls::refused, that holds the job back; nullopt if there is
+  // Returns the refusal, reported by Calls::refused, that holds the step back; nullopt if there is
   // none.
-  [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
+  [[nodiscard]] std::optional<GuardRefusal> refusal(StepId step) const;
   [[nodiscard]] bool is_idle() const { return kept_.empty(); }
-  [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
+  [[nodiscard]] std::optional<StepId> step_of(ArmId arm) const { return steps_[arm.index()]; }
 
-  // Shortest time between two requests for the missing certificates of one job.
+  // Shortest time between two requests for the missing certificates of one step.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
   // A certificate that is still missing after this time and this many answers is reported as a
   // defect of the scheduler.
@@ -81,23 +81,23 @@ class AuthorityGate {
   };
   [[nodiscard]] std::optional<GuardRefusal> passes(const TrajectoryPtr& motion,
                                                    AuthorityGuard::From from, Duration authority);
-  void keep(JobId job, Kept kept);
+  void keep(StepId step, Kept kept);
   void see_positions();
   void try_again();
   void ask();
-  [[nodiscard]] Question question_about(JobId job, const Kept& kept) const;
-  void report(JobId job, Kept& kept);
-  [[nodiscard]] MotionReport stopped(JobId job, const Kept& kept) const;
+  [[nodiscard]] Question question_about(StepId step, const Kept& kept) const;
+  void report(StepId step, Kept& kept);
+  [[nodiscard]] MotionReport stopped(StepId step, const Kept& kept) const;
 
   CellPtr cell_;
   Motions& motions_;
   AuthorityGuard guard_;
   Calls calls_;
   bool is_certified_ = true;
-  std::map<JobId, Kept> kept_;
-  std::map<JobId, TrajectoryPtr> told_;
-  std::vector<std::optional<JobId>> jobs_;  // by ArmId
-  std::optional<JobId> asked_;              // the job of the open question
+  std::map<StepId, Kept> kept_;
+  std::map<StepId, TrajectoryPtr> told_;
+  std::vector<std::optional<StepId>> steps_;  // by ArmId
+  std::optional<StepId> asked_;               // the step of the open question
   TimePoint now_{};
   std::uint32_t looked_at_ = 0;  // ArmId of the last resting arm whose position was read
   std::vector<MotionReport> reports_;

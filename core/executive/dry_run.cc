@@ -171,7 +171,7 @@ class Instant final : public JobNames {
         ended_.insert(index);
         set_joints(rest_, *job.trajectory, job.trajectory->goal());
       } else {
-        under_way_.push_back(Motion{known_as(index), job.trajectory, now_ - job.starts});
+        under_way_.push_back(Motion{only_step(known_as(index)), job.trajectory, now_ - job.starts});
       }
     }
     add_next(asked);

@@ -21,12 +21,12 @@ Execution::Execution(const CellPtr& cell, Made made, StartLog* log, ArmFaults::A
       starts_(log) {}
 
 void Execution::carry_out(const Dispatch& dispatch, const Job& job,
-                          std::function<bool(JobId)> written) {
+                          std::function<bool(StepId)> written) {
   if (job.system_job) return gate_.dispatch(dispatch, job.trajectory);
-  const auto open = [this, id = job.id, written = std::move(written)] {
-    const bool moves = written(id);
-    const auto withheld = starts_.open(id);
-    if (withheld && moves) gate_.grant({id, *withheld});
+  const auto open = [this, step = dispatch.step, written = std::move(written)] {
+    const bool moves = written(step);
+    const auto withheld = starts_.open(step.job);
+    if (withheld && moves) gate_.grant({step, *withheld});
   };
   gate_.dispatch(starts_.pass(dispatch, open), job.trajectory);
 }
@@ -36,7 +36,7 @@ void Execution::carry_out(const Grant& grant) {
 }
 
 bool Execution::keeps_back(const MotionReport& report) const {
-  return report.kind == MotionReport::Kind::progressed && starts_.withholds(report.job);
+  return report.kind == MotionReport::Kind::progressed && starts_.withholds(report.step.job);
 }
 
 void Execution::forget(const Job& ended) {

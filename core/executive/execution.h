@@ -28,10 +28,10 @@ class Execution {
 
   // `written` is called on the strand when the job's start is on disk; it returns true if the job
   // is still in motion.
-  void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(JobId)> written);
+  void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(StepId)> written);
   void carry_out(const Grant& grant);
-  void carry_out(const Brake& brake) { gate_.brake(brake.job); }
-  void carry_out(const Release& release) { gate_.release(release.job); }
+  void carry_out(const Brake& brake) { gate_.brake(brake.step); }
+  void carry_out(const Release& release) { gate_.release(release.step); }
   void brake(ArmId arm, StopCategory category = StopCategory::brake) {
     motions_.brake(arm, category);
   }
@@ -39,8 +39,8 @@ class Execution {
   void set_speed(std::vector<double> shares) { motions_.set_speed(std::move(shares)); }
   void forget(const Job& ended);
 
-  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs. A
-  // report for which keeps_back() is true must not be passed on, because the job's start is not
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
+  // A report for which keeps_back() is true must not be passed on, because the job's start is not
   // recorded.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now) { return gate_.tick(now); }
   [[nodiscard]] bool keeps_back(const MotionReport& report) const;

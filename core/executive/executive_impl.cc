@@ -26,9 +26,9 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
             return clock_.now;
           },
           {.certify = [this](const Question& question) { certify(question); },
-           .refused = [this](JobId job, const GuardRefusal& r) { refused(job, r); },
+           .refused = [this](StepId id, const GuardRefusal& r) { refused(id.job, r); },
            .allowed =
-               [this](JobId job) { publisher_.tell_job(publisher_.view(job), clock_.now); }}),
+               [this](StepId id) { publisher_.tell_job(publisher_.view(id.job), clock_.now); }}),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
@@ -78,17 +78,17 @@ void Executive::Impl::carry_out(const Effect& effect) {
     });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
     questions_.plans().ask(*plan, scene_.scene(), [this](const PlanMade& made) {
-      note({ExecutiveInput::Planned{made.job, made.question}});
+      note({ExecutiveInput::Planned{made.step, made.question}});
       step(made);
     });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
-    const auto written = [this](JobId job) {
-      note({ExecutiveInput::StartWritten{job}});
-      step(StartRecorded{job});
-      const Job* started = scheduler_.find(job);
+    const auto written = [this](StepId id) {
+      note({ExecutiveInput::StartWritten{id}});
+      step(StartRecorded{id});
+      const Job* started = scheduler_.find(id.job);
       return started != nullptr && started->in<Moving>() != nullptr;
     };
-    execution_.carry_out(*dispatch, *scheduler_.find(dispatch->job), written);
+    execution_.carry_out(*dispatch, *scheduler_.find(dispatch->step.job), written);
   } else if (const auto* grant = std::get_if<Grant>(&effect)) {
     execution_.carry_out(*grant);
   } else if (const auto* aside = std::get_if<YieldMove>(&effect)) {
@@ -140,10 +140,11 @@ void Executive::Impl::show_check() {
   clock_.shows_check_at = clock_.now + kShownAgain;
   if (!questions_.asked()) return;
   for (const Motion& motion : questions_.asked()->candidates) {
-    if (scheduler_.find(motion.job) == nullptr) continue;
-    JobView view = publisher_.view(motion.job);
+    const JobId job = motion.step.job;
+    if (scheduler_.find(job) == nullptr) continue;
+    JobView view = publisher_.view(job);
     if (!questions_.tell_check(view)) return;
-    checks_shown_.insert(motion.job);
+    checks_shown_.insert(job);
     publisher_.show(std::move(view), clock_.now);
   }
 }
@@ -241,6 +242,7 @@ std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
   if (arms.empty()) return not_resumed;
   publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
   for (const ArmId arm : arms) locate(arm);
+  for (const ArmId arm : arms) watch_.resumed(arm);
   step(Resume{arms});
   return not_resumed;
 }
@@ -287,8 +289,8 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
                    .other_job = {}};
   if (refusal.other) {
     event.other_arm = cell_->arm(*refusal.other).name;
-    const auto on = execution_.gate().job_of(*refusal.other);
-    if (on) event.other_job = jobs_.key(*on);
+    const auto on = execution_.gate().step_of(*refusal.other);
+    if (on) event.other_job = jobs_.key(on->job);
   }
   count_.guard_refusal();
   publisher_.tell(std::move(event), clock_.now);

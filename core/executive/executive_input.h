@@ -100,14 +100,14 @@ struct ExecutiveInput {
   struct Certified {
     std::uint64_t evaluations;
   };
-  // The answer to the open plan `question` of this job arrived.
+  // The answer to the open plan `question` of this step arrived.
   struct Planned {
-    JobId job{0};
+    StepId step{JobId{0}};
     std::uint64_t question;
   };
-  // The job's start is on disk (StartLog).
+  // The step's start is on disk (StartLog).
   struct StartWritten {
-    JobId job{0};
+    StepId step{JobId{0}};
   };
   // A controller in another process reported its arm, or its connection changed. The next control
   // cycle takes it.

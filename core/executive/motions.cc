@@ -33,7 +33,7 @@ Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> contr
 }
 
 void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory) {
-  Motion& motion = motions_[dispatch.job];
+  Motion& motion = motions_[dispatch.step];
   motion.trajectory = trajectory;
   motion.authority = dispatch.authority;
   motion.granted_max = std::max(motion.granted_max, motion.authority);
@@ -57,7 +57,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
 }
 
 void Motions::grant(const Grant& grant) {
-  Motion& motion = motions_.at(grant.job);
+  Motion& motion = motions_.at(grant.step);
   motion.authority = grant.authority;
   motion.granted_max = std::max(motion.granted_max, motion.authority);
   if (motion.trajectory->arms().size() > 1) return;  // keep_together() hands it on
@@ -71,7 +71,7 @@ void Motions::brake_all() {
 void Motions::set_speed(std::vector<double> shares) {
   shares_ = std::move(shares);
   for (std::uint32_t a = 0; a < arms_.size(); ++a) pass_on_speed({ArmId{a}});
-  for (const auto& [job, motion] : motions_) {
+  for (const auto& [step, motion] : motions_) {
     if (motion.trajectory->arms().size() > 1) pass_on_speed(motion.trajectory->arms());
   }
 }
@@ -82,14 +82,14 @@ void Motions::pass_on_speed(const std::vector<ArmId>& together) {
   for (ArmId arm : together) command(arm, ArmCommand::SetSpeed{share});
 }
 
-void Motions::brake(JobId job) {
-  Motion& motion = motions_.at(job);
+void Motions::brake(StepId step) {
+  Motion& motion = motions_.at(step);
   motion.braking = true;
   for (ArmId arm : motion.trajectory->arms()) command(arm, ArmCommand::Brake{});
 }
 
-void Motions::release(JobId job) {
-  const auto it = motions_.find(job);
+void Motions::release(StepId step) {
+  const auto it = motions_.find(step);
   if (it == motions_.end()) return;
   const std::vector<ArmId>& arms = it->second.trajectory->arms();
   for (ArmId arm : arms) {
@@ -115,8 +115,8 @@ void Motions::tick_arms(TimePoint now) {
 const std::vector<MotionReport>& Motions::tick(TimePoint now) {
   tick_arms(now);
   reports_.clear();
-  for (auto& [job, motion] : motions_) {
-    report(job, motion);
+  for (auto& [step, motion] : motions_) {
+    report(step, motion);
     if (motion.trajectory->arms().size() > 1 && !motion.resting) keep_together(motion);
   }
   return reports_;
@@ -138,7 +138,7 @@ void Motions::keep_together(Motion& motion) {
   }
 }
 
-void Motions::report(JobId job, Motion& motion) {
+void Motions::report(StepId step, Motion& motion) {
   if (motion.resting) return;
   bool all_rest = true, all_finished = true, any_moves = false;
   const ArmFeedback* fault = nullptr;
@@ -159,7 +159,7 @@ void Motions::report(JobId job, Motion& motion) {
   progress = std::min(progress, motion.granted_max);
   farthest = std::min(farthest, motion.granted_max);
   if (rests_at) rests_at = std::min(*rests_at, motion.granted_max);
-  if (fault && !motion.braking) brake(job);
+  if (fault && !motion.braking) brake(step);
   if (all_rest) {
     motion.resting = true;
     for (ArmId arm : motion.trajectory->arms()) {
@@ -168,10 +168,10 @@ void Motions::report(JobId job, Motion& motion) {
     const auto kind = fault          ? MotionReport::Kind::faulted
                       : all_finished ? MotionReport::Kind::finished
                                      : MotionReport::Kind::stopped;
-    reports_.push_back({job, kind, progress, joints_of(measured_, motion.trajectory->joints()),
+    reports_.push_back({step, kind, progress, joints_of(measured_, motion.trajectory->joints()),
                         fault ? fault->detail : std::string(), farthest});
   } else if (any_moves) {
-    reports_.push_back({.job = job,
+    reports_.push_back({.step = step,
                         .kind = MotionReport::Kind::progressed,
                         .progress = progress,
                         .rests_at = rests_at});
@@ -191,14 +191,14 @@ bool Motions::all_settled() const {
 }
 
 Duration Motions::granted(ArmId arm) const {
-  for (const auto& [job, motion] : motions_) {
+  for (const auto& [step, motion] : motions_) {
     if (std::ranges::count(motion.trajectory->arms(), arm) > 0) return motion.granted_max;
   }
   return {};
 }
 
 TrajectoryPtr Motions::trajectory(ArmId arm) const {
-  for (const auto& [job, motion] : motions_) {
+  for (const auto& [step, motion] : motions_) {
     if (std::ranges::count(motion.trajectory->arms(), arm) > 0) return motion.trajectory;
   }
   return nullptr;
@@ -216,9 +216,9 @@ double Motions::deviation(ArmId arm, double enough) const {
 
 std::vector<Motions::UnderWay> Motions::under_way() const {
   std::vector<UnderWay> all;
-  for (const auto& [job, motion] : motions_) {
+  for (const auto& [step, motion] : motions_) {
     for (ArmId arm : motion.trajectory->arms()) {
-      all.push_back({arm, job, feedback(arm).measured_progress, motion.authority});
+      all.push_back({arm, step, feedback(arm).measured_progress, motion.authority});
     }
   }
   return all;

@@ -15,11 +15,11 @@
 
 namespace armloom {
 
-// Sends a job's trajectory to the controllers of its arms and joins their feedback into one report:
-// the progress of the last arm, and one end. If one arm faults, the other arms of the motion are
-// braked. An arm that leads by more than out_of_step() (core/coordination/in_step.h) waits on the
-// path. Authority never exceeds the last known progress of the last arm by more than out_of_step()
-// plus the stopping reach, so the arms stay together even if feedback is lost.
+// Sends a step's trajectory to the controllers of its arms and joins their feedback into one
+// report: the progress of the last arm, and one end. If one arm faults, the other arms of the
+// motion are braked. An arm that leads by more than out_of_step() (core/coordination/in_step.h)
+// waits on the path. Authority never exceeds the last known progress of the last arm by more than
+// out_of_step() plus the stopping reach, so the arms stay together even if feedback is lost.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -27,16 +27,16 @@ class Motions {
 
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
   void grant(const Grant& grant);
-  void brake(JobId job);
+  void brake(StepId step);
   // Brakes an arm that may have no motion.
   void brake(ArmId arm, StopCategory category) { command(arm, ArmCommand::Brake{category}); }
   void brake_all();
   // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
   void set_speed(std::vector<double> shares);
   [[nodiscard]] double speed(ArmId arm) const { return shares_[arm.index()]; }
-  void release(JobId job);
+  void release(StepId step);
 
-  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
   // Runs the arms' part of a cycle only, as if the executive had stopped.
   void tick_arms(TimePoint now);
@@ -69,10 +69,10 @@ class Motions {
   // Returns null if the arm has no motion.
   [[nodiscard]] TrajectoryPtr trajectory(ArmId arm) const;
   // An arm of a motion under way; times are trajectory time. under_way() returns them in order of
-  // jobs.
+  // steps.
   struct UnderWay {
     ArmId arm;
-    JobId job;
+    StepId step;
     Duration progress;  // measured
     Duration authority;
   };
@@ -104,7 +104,7 @@ class Motions {
     to.link.flush(*to.controller);
   }
   void pass_on_speed(const std::vector<ArmId>& together);
-  void report(JobId job, Motion& motion);
+  void report(StepId step, Motion& motion);
   void keep_together(Motion& motion);
 
   CellPtr cell_;
@@ -112,7 +112,7 @@ class Motions {
   std::vector<double> shares_;   // by ArmId: speed override
   Configuration measured_;
   Configuration truth_;
-  std::map<JobId, Motion> motions_;
+  std::map<StepId, Motion> motions_;
   std::vector<MotionReport> reports_;
 };
 

@@ -21,7 +21,7 @@ std::string nearest_text(const PlanRefusal& refusal) {
 }  // namespace
 
 PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
-  PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
+  PlanMade made{.step = asked.step, .question = asked.number, .trajectory = nullptr};
   if (answer) {
     made.trajectory = answer->timed.trajectory;
     made.goes_through = answer->goes_through;
@@ -38,7 +38,7 @@ PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
 void OpenPlans::ask(const PlanMotion& asked, PlanningScenePtr scene,
                     std::function<void(PlanMade)> done) {
   const auto given_up = std::make_shared<std::atomic<bool>>(false);
-  const Key key{asked.job, asked.number};
+  const Key key{asked.step, asked.number};
   plans_.insert_or_assign(key, Plan{asked, given_up});
   const auto answered = [this, key, scene, done = std::move(done)](PlanAnswer answer) {
     const auto node = plans_.extract(key);
@@ -52,8 +52,8 @@ void OpenPlans::ask(const PlanMotion& asked, PlanningScenePtr scene,
 }
 
 void OpenPlans::give_up(JobId job) {
-  for (auto plan = plans_.lower_bound({job, 0}); plan != plans_.end(); ++plan) {
-    if (plan->first.first != job) return;
+  for (auto plan = plans_.lower_bound({StepId{job, 0}, 0}); plan != plans_.end(); ++plan) {
+    if (plan->first.first.job != job) return;
     *plan->second.given_up = true;
   }
 }

@@ -15,7 +15,7 @@ namespace armloom {
 // Returns the scheduler's input for the answer.
 [[nodiscard]] PlanMade made_of(const PlanMotion& asked, PlanAnswer answer);
 
-// The open plans of jobs.
+// The open plans of steps.
 class OpenPlans {
  public:
   explicit OpenPlans(JudgementService& judges) : judges_(judges) {}  // outlives this object
@@ -24,12 +24,12 @@ class OpenPlans {
   void ask(const PlanMotion& asked, PlanningScenePtr scene, std::function<void(PlanMade)> done);
   // Cancels the open plans of a job that no longer needs them.
   void give_up(JobId job);
-  // Returns the open plans, by job.
+  // Returns the open plans, by step.
   [[nodiscard]] std::vector<PlanMotion> open() const;
 
  private:
   JudgementService& judges_;
-  using Key = std::pair<JobId, std::uint64_t>;  // and PlanMotion::number
+  using Key = std::pair<StepId, std::uint64_t>;  // and PlanMotion::number
   struct Plan {
     PlanMotion asked;
     std::shared_ptr<std::atomic<bool>> given_up;

@@ -46,8 +46,9 @@ class OpenQuestions {
 
  private:
   [[nodiscard]] bool asks_about(JobId job) const {
-    return asked_ &&
-           std::ranges::find(asked_->candidates, job, &Motion::job) != asked_->candidates.end();
+    return asked_ && std::ranges::any_of(asked_->candidates, [job](const Motion& motion) {
+             return motion.step.job == job;
+           });
   }
 
   JudgementService& service_;

@@ -137,8 +137,8 @@ void Publisher::tell_state(const std::vector<Proximity>& near, TimePoint now) {
 std::vector<ArmAuthority> Publisher::authorities() const {
   std::vector<ArmAuthority> all;
   for (const Motions::UnderWay& motion : shown_.motions.under_way()) {
-    all.push_back({shown_.cell.arm(motion.arm).name, shown_.jobs.key(motion.job), motion.progress,
-                   motion.authority});
+    all.push_back({shown_.cell.arm(motion.arm).name, shown_.jobs.key(motion.step.job),
+                   motion.progress, motion.authority});
   }
   return all;
 }
@@ -148,7 +148,7 @@ JobView Publisher::view(JobId id) const {
   view.times.expires_at = shown_.scheduler.expiry(id);
   const JobLabel* label = shown_.jobs.label(id);
   if (label != nullptr && label->submitted_at) view.times.submitted_at = *label->submitted_at;
-  if (const auto refusal = shown_.gate.refusal(id)) {
+  if (const auto refusal = shown_.gate.refusal(only_step(id))) {
     WaitView& wait = view.waits_on.emplace_back(WaitView{.kind = Wait::Kind::guard});
     if (refusal->other) wait.arm = shown_.cell.arm(*refusal->other).name;
     wait.detail = sentence(*refusal, shown_.cell);

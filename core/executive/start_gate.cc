@@ -8,8 +8,8 @@ namespace armloom {
 
 Dispatch StartGate::pass(Dispatch dispatch, std::function<void()> written) {
   if (log_ == nullptr) return dispatch;
-  const auto [start, is_first] = starts_.try_emplace(dispatch.job);
-  if (is_first) log_->about_to_move(dispatch.job, std::move(written));
+  const auto [start, is_first] = starts_.try_emplace(dispatch.step.job);
+  if (is_first) log_->about_to_move(dispatch.step.job, std::move(written));
   if (!start->second.is_written) {
     start->second.withheld = std::exchange(dispatch.authority, dispatch.from_progress);
   }
@@ -17,8 +17,8 @@ Dispatch StartGate::pass(Dispatch dispatch, std::function<void()> written) {
 }
 
 bool StartGate::keeps(const Grant& grant) {
-  if (!withholds(grant.job)) return false;
-  starts_.at(grant.job).withheld = grant.authority;
+  if (!withholds(grant.step.job)) return false;
+  starts_.at(grant.step.job).withheld = grant.authority;
   return true;
 }
 

@@ -34,6 +34,7 @@ class StateWatch {
   [[nodiscard]] std::vector<MonitorFinding> check_premises(const Observation& seen) {
     return premises_.check(seen);
   }
+  void resumed(ArmId arm) { premises_.resumed(arm); }
   [[nodiscard]] const PremiseCheck& premises() const { return premises_; }
   // Checks the measured distances, and returns true. Does nothing and returns false if `measured`
   // has not changed since the previous call. `moving`: by ArmId.

@@ -62,9 +62,9 @@ TimelineLanes lanes_of(const TimelineView& timeline, const Cell& cell) {
   };
   std::set<JobId> legs;
   for (const PredictedLeg& leg : timeline.predicted.legs) {
-    const auto job = status.jobs.find(leg.job);
+    const auto job = status.jobs.find(leg.step.job);
     if (!job) continue;
-    legs.insert(leg.job);
+    legs.insert(leg.step.job);
     const TimelineLanes::Leg told = leg_of(leg, status.with_progress(job), cell, names);
     in_lanes_of(*job, [&](TimelineLanes::Lane& lane) { lane.steps.push_back(told); });
   }

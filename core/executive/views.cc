@@ -136,7 +136,7 @@ ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const
 }
 
 DetourView view_of(const Detour& detour) {
-  DetourView view{.candidates_evaluated = static_cast<std::uint64_t>(detour.tries),
+  DetourView view{.candidates_evaluated = static_cast<std::uint64_t>(detour.request.tries),
                   .is_selected = detour.is_taken,
                   .time_saved_s = {}};
   if (detour.saves > Duration{}) view.time_saved_s = to_seconds(detour.saves);

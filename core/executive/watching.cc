@@ -26,7 +26,7 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 // A motion that ended away from its goal has failed.
 void Executive::Impl::take(const MotionReport& report) {
-  const Job* job = scheduler_.find(report.job);
+  const Job* job = scheduler_.find(report.step.job);
   const bool is_watched = clock_.monitored && job != nullptr;
   if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();
@@ -46,7 +46,10 @@ void Executive::Impl::take(const MotionReport& report) {
 void Executive::Impl::watch() {
   publisher_.tell_watch();
   const Motions& motions = execution_.motions();
-  const Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
+  Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
+  for (ArmId arm : all_arms(*cell_)) {
+    seen.arms[arm.index()].is_stopped = scheduler_.stop_of(arm).has_value();
+  }
   std::vector<MonitorFinding> found = watch_.check_premises(seen);
   std::vector<bool> moving;
   for (ArmId arm : all_arms(*cell_)) {

@@ -8,11 +8,11 @@
 
 namespace armloom {
 
-// The arm queues: for each arm its jobs that have not ended, in running order, and the sum of their
-// durations (work).
+// The arm queues: for each arm the steps of its jobs that have not ended, in running order, and the
+// sum of their durations (work).
 class ArmQueues {
  public:
-  using Queue = std::deque<JobId>;
+  using Queue = std::deque<StepId>;
   explicit ArmQueues(std::size_t arms) : queues_(arms), work_(arms) {}
 
   [[nodiscard]] const Queue& operator[](ArmId arm) const { return queues_[arm.index()]; }
@@ -22,16 +22,16 @@ class ArmQueues {
 
   [[nodiscard]] bool is_first(const Job& job) const;  // in the queues of all its arms
   // Return the neighbor in that arm's queue, if any.
-  [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
-  [[nodiscard]] std::optional<JobId> behind(const Job& job, ArmId arm) const;
+  [[nodiscard]] std::optional<StepId> before(const Job& job, ArmId arm) const;
+  [[nodiscard]] std::optional<StepId> behind(const Job& job, ArmId arm) const;
 
-  // Inserts the job at the end of its arms' queues, or before the job `before` in queues that
+  // Inserts the job at the end of its arms' queues, or before the step `before` in queues that
   // contain it.
-  void insert(const Job& job, std::optional<JobId> before);
+  void insert(const Job& job, std::optional<StepId> before);
   void insert_at(const Job& job, std::size_t place);
   void erase(const Job& job);
-  // Puts these jobs, which occupy consecutive places on the same arms, into the given order.
-  void put_in_order(const Job& any_of_them, const std::vector<JobId>& jobs);
+  // Puts these steps, which occupy consecutive places on the same arms, into the given order.
+  void put_in_order(const Job& any_of_them, const std::vector<StepId>& steps);
 
   // Add or remove the job's duration as work. A job with several candidate arms is shared equally
   // between them. To change a job, remove its work first and add it again.

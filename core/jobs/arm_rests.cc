@@ -91,8 +91,8 @@ std::optional<Wait> ArmRests::stop_of(const Job& job) const {
   return std::nullopt;
 }
 
-WaitingLeg ArmRests::leg_of(const Cell& cell, JobId job, const Trajectory& motion) {
-  WaitingLeg leg{.job = job, .arms = motion.arms(), .from = {}, .to = {}};
+WaitingLeg ArmRests::leg_of(const Cell& cell, StepId step, const Trajectory& motion) {
+  WaitingLeg leg{.step = step, .arms = motion.arms(), .from = {}, .to = {}};
   for (ArmId arm : leg.arms) {
     const Arm& moved = cell.arm(arm);
     leg.from.push_back(places_.of(arm, part_of(moved, motion, motion.start())));

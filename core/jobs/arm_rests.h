@@ -57,7 +57,7 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
-  [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
+  [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
   // Returns the first joint whose rest differs from the trajectory's start by more than
   // execution.start_tolerance_rad. With `arm`, compares only the joints of that arm.
   [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,

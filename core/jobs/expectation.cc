@@ -24,7 +24,7 @@ void Expectation::renew(const std::vector<CoordinatedMotion>& motions, const Pre
   expected_.clear();
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const auto stages = prediction.stages(m);
-    expected_[motions[m].job] = {{stages.begin(), stages.end()}, motions[m].outlook.pace};
+    expected_[motions[m].step] = {{stages.begin(), stages.end()}, motions[m].outlook.pace};
   }
   at_ = now;
   is_spoilt_ = false;
@@ -33,7 +33,7 @@ void Expectation::renew(const std::vector<CoordinatedMotion>& motions, const Pre
 bool Expectation::is_missed(const std::vector<CoordinatedMotion>& motions, TimePoint now) const {
   if (is_spoilt_) return !motions.empty();
   return std::ranges::any_of(motions, [&](const CoordinatedMotion& motion) {
-    const auto way = expected_.find(motion.job);
+    const auto way = expected_.find(motion.step);
     if (way == expected_.end() || way->second.stages.empty()) return false;
     const Duration off = motion.progress - progress_at(way->second, now - at_);
     return off > kOffAtMost || off < -kOffAtMost;

@@ -30,7 +30,7 @@ class Expectation {
   };
   [[nodiscard]] static Duration progress_at(const Way& way, Duration time);
 
-  std::map<JobId, Way> expected_;
+  std::map<StepId, Way> expected_;
   TimePoint at_{};
   bool is_spoilt_ = false;
 };

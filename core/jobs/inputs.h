@@ -45,9 +45,9 @@ struct Submit {
   // The job does not move before StartRecorded, and cannot overrun until then.
   bool start_is_recorded = false;
 };
-// The start of a job that waits for it is on disk: its arms can move.
+// The start of a step whose job waits for it is on disk: its arms can move.
 struct StartRecorded {
-  JobId job;
+  StepId step;
 };
 struct Cancel {
   JobId job;
@@ -68,7 +68,7 @@ struct Judged {
 };
 // Answers the PlanMotion effect whose `number` is `question`.
 struct PlanMade {
-  JobId job;
+  StepId step;
   std::uint64_t question;
   TrajectoryPtr trajectory;  // from PlanQuestion::at to the goal; null if no path was found
   std::string why = {};      // why no path was found; one sentence
@@ -77,16 +77,16 @@ struct PlanMade {
   // The path crosses positions of other arms, because no path around all of them was found.
   bool goes_through = false;
 };
-// Measured progress of a job's motion. Sent for every moving job in every relevant tick; `kind`
+// Measured progress of a step's motion. Sent for every moving step in every relevant tick; `kind`
 // says what changed.
 struct MotionReport {
   enum class Kind {
-    progressed,  // moving; the job's first report means that it started
+    progressed,  // moving; the step's first report means that it started
     stopped,     // at rest before its end, after a Brake
     finished,    // at rest at its end
     faulted,     // the controller reported a fault; the arm is at rest
   };
-  JobId job;
+  StepId step;
   Kind kind;
   Duration progress;                   // trajectory time, as measured
   Eigen::VectorXd rest_position = {};  // stopped, finished, faulted: measured positions of the
@@ -120,8 +120,8 @@ struct Resume {
 };
 // An arm without authority was found at rest at `position`: it was moved while it was stopped, or
 // its controller has just connected. Ends Unlocated. Otherwise ignored if the arm's job is in
-// motion. A job that rests on its path and is no longer there is replanned (MoveToStart::plan, or a
-// goal) or fails with Reason::start_mismatch.
+// motion. A job that rests on its path is compared with the position when the arm is not stopped
+// any more (rejoin()).
 struct Located {
   ArmId arm;
   Eigen::VectorXd position;  // of Arm::joints, then Arm::gripper_joints
@@ -165,29 +165,30 @@ using Input =
 struct Judge {
   Question question;
 };
-// Plan this job's motion on a worker and reply with PlanMade. At most one is open per job and arm.
+// Plan this step's motion on a worker and reply with PlanMade. At most one is open per step and
+// arm.
 struct PlanMotion {
-  JobId job;
+  StepId step;
   std::uint64_t number;
   PlanQuestion question;
 };
-// At `start_at`, start this job's motion (`from_progress` is zero) or continue it after a stop.
+// At `start_at`, start this step's motion (`from_progress` is zero) or continue it after a stop.
 struct Dispatch {
-  JobId job;
+  StepId step;
   TimePoint start_at;
   Duration from_progress;
   Duration authority;  // trajectory time that the motion may not pass until more is granted
 };
-// Extends the job's authority, which never decreases. The job's arms come to rest at it unless more
-// is granted in time.
+// Extends the step's authority, which never decreases. The step's arms come to rest at it unless
+// more is granted in time.
 struct Grant {
-  JobId job;
+  StepId step;
   Duration authority;
 };
-// Brake the job's arms to rest on their path, or keep them at the start. The answer is a
+// Brake the step's arms to rest on their path, or keep them at the start. The answer is a
 // MotionReport of kind stopped, finished or faulted.
 struct Brake {
-  JobId job;
+  StepId step;
 };
 // The scheduler has added `job`, a job of its own for `arm`, which helps `blocked_job`. It is one
 // of:
@@ -204,9 +205,9 @@ struct YieldMove {
   bool returns = false;
   bool to_start = false;
 };
-// The job has ended and its arms are at rest: the controllers drop its motion.
+// The step has ended and its arms are at rest: the controllers drop its motion.
 struct Release {
-  JobId job;
+  StepId step;
 };
 // Something that clients see of this job has changed (progress is not included).
 struct JobChanged {

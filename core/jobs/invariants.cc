@@ -7,30 +7,31 @@ namespace {
 
 using Broken = std::optional<std::string>;
 
-std::string name(JobId job) { return "job " + std::to_string(job.value()); }
+std::string name(StepId step) { return "job " + std::to_string(step.job.value()); }
 
 std::string at(Duration progress) { return std::to_string(to_seconds(progress)) + " s"; }
 
 Broken of_job(const State& state, const Job& job) {
   const bool occupies =
       job.in<Moving>() != nullptr || job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
-  if (job.has_ended()) return name(job.id) + " has ended but is in a queue";
+  if (job.has_ended()) return name(job.step()) + " has ended but is in a queue";
   if (occupies && !state.jobs.queues().is_first(job)) {
-    return name(job.id) + " occupies an arm, but another job precedes it in the queue";
+    return name(job.step()) + " occupies an arm, but another job precedes it in the queue";
   }
-  if (!job.has_authority() || state.graph.holds(job.id)) return std::nullopt;
-  return name(job.id) + " moves or is about to move, but is not admitted";
+  if (!job.has_authority() || state.graph.holds(job.step())) return std::nullopt;
+  return name(job.step()) + " moves or is about to move, but is not admitted";
 }
 
 Broken of_motion(const State& state, const CoordinatedMotion& motion) {
-  if (!state.jobs.is_active(motion.job)) return name(motion.job) + " has ended but is admitted";
-  if (state.jobs.at(motion.job).job.in<Queued>() != nullptr) {
-    return name(motion.job) + " waits in the queue but is admitted";
+  if (!state.jobs.is_active(motion.step.job))
+    return name(motion.step) + " has ended but is admitted";
+  if (state.jobs.at(motion.step).job.in<Queued>() != nullptr) {
+    return name(motion.step) + " waits in the queue but is admitted";
   }
   const bool in_order = Duration{} <= motion.progress && motion.progress <= motion.authority &&
                         motion.authority <= motion.duration;
-  if (in_order) return of_job(state, state.jobs.at(motion.job).job);
-  return name(motion.job) + ": progress " + at(motion.progress) + ", authority " +
+  if (in_order) return of_job(state, state.jobs.at(motion.step).job);
+  return name(motion.step) + ": progress " + at(motion.progress) + ", authority " +
          at(motion.authority) + ", duration " + at(motion.duration) + " are out of order";
 }
 

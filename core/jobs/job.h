@@ -11,6 +11,7 @@
 #include "core/coordination/verdict.h"
 #include "core/jobs/job_terms.h"
 #include "core/jobs/job_words.h"
+#include "core/jobs/plan_request.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -19,8 +20,8 @@ namespace armloom {
 struct Judgement {
   Version at = 0;  // zero: not checked yet
   std::vector<Wait> found = {};
-  // The result is void once that job no longer precedes this job in the safe sequence.
-  std::optional<JobId> in_turn_after = {};
+  // The result is void once that step no longer precedes this job in the safe sequence.
+  std::optional<StepId> in_turn_after = {};
 };
 // A rest on the path: after a stop, or until other motions have passed.
 struct Pause {
@@ -112,21 +113,15 @@ struct Choice {
 // A goal for one arm, and the plan for it (goals.h).
 struct GoalWay {
   MotionGoal goal;
-  bool is_planned = false;                     // the job's trajectory is the plan, not an estimate
-  std::optional<std::uint64_t> question = {};  // number of the open question
-  int tries = 0;                               // requests since the last plan that was up to date
-  Configuration beside = {};                   // positions of all arms in the last question, ...
-  Version asked_at = 0;                        // ... and its version
-  std::optional<std::string> refusal = {};     // the planner's reason, if there is no plan
-  std::optional<Proximity> stands_in = {};     // ... because the arm is too close to this object
-  bool goes_through = false;  // the plan crosses positions of other arms (PlanMade)
+  PlanRequest request = {};                 // its tries: since the last plan that was up to date
+  bool is_planned = false;                  // the job's trajectory is the plan, not an estimate
+  std::optional<std::string> refusal = {};  // the planner's reason, if there is no plan
+  std::optional<Proximity> stands_in = {};  // ... because the arm is too close to this object
+  bool goes_through = false;                // the plan crosses positions of other arms (PlanMade)
 };
 // Detours of a goal's path around positions that other arms occupy (detour.h).
 struct Detour {
-  std::optional<std::uint64_t> question = {};  // number of the open question
-  Configuration beside = {};                   // positions of all arms in the last question, ...
-  Version asked_at = 0;                        // ... and its version
-  int tries = 0;
+  PlanRequest request = {};
   bool is_weighed = false;       // the job temporarily has a candidate path, and is checked with it
   TrajectoryPtr best = nullptr;  // the best path so far (a candidate, or the job's own), ...
   TimePoint arrives{};           // ... and its predicted arrival
@@ -159,13 +154,10 @@ struct AnotherWay {
     blocked,  // the job is blocked by an arm that no job moves, or is in a deadlock cycle
   };
   Cause cause = Cause::client;
-  bool is_open = false;                        // requested and not answered
-  std::optional<std::uint64_t> question = {};  // number of the last question
-  Configuration beside = {};                   // positions of all arms in the last question, ...
-  Version asked_at = 0;                        // ... and its version
-  int tries = 0;                               // questions since the last request by a client
-  std::uint64_t done = 0;                      // number of successful replans
-  std::optional<std::string> refusal = {};     // why the last one failed
+  bool is_open = false;                     // requested and not answered
+  PlanRequest request = {};                 // its tries: since the last request by a client
+  std::uint64_t done = 0;                   // number of successful replans
+  std::optional<std::string> refusal = {};  // why the last one failed
 };
 [[nodiscard]] constexpr const char* to_string(AnotherWay::Cause cause) {
   switch (cause) {
@@ -178,6 +170,9 @@ struct AnotherWay {
   }
   return nullptr;
 }
+
+// Returns the only step of the job.
+[[nodiscard]] constexpr StepId only_step(JobId job) { return StepId{job, 0}; }
 
 struct Job {
   JobId id;
@@ -203,6 +198,7 @@ struct Job {
   std::optional<AnotherWay> another_way = {};
   std::optional<JobGoal> goal = {};
 
+  [[nodiscard]] StepId step() const { return only_step(id); }
   template <typename P>
   [[nodiscard]] const P* in() const {
     return std::get_if<P>(&phase);
@@ -220,7 +216,7 @@ struct Job {
   }
   // True if the job has a path and a detour is being planned.
   [[nodiscard]] bool is_detour_asked() const {
-    return goal && goal->detour && goal->detour->question;
+    return goal && goal->detour && goal->detour->request.question;
   }
   // True if the job has a goal and the choice among its candidate arms is still open.
   [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }

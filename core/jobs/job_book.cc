@@ -38,15 +38,16 @@ void JobIds::take(JobId id) {
 Record& JobBook::add(Record record) {
   const Job& job = record.job;
   ids_.take(job.id);
-  queues_.insert(job, record.errand.before);
+  const auto& before = record.errand.before;
+  queues_.insert(job, before ? std::optional(only_step(*before)) : std::nullopt);
   queues_.add_work(job);
   active_.insert(job.id);
   if (!job.alternatives.empty()) undecided_.insert(job.id);
   if (job.goal) ++goals_;
   news_.unexplained.insert(job.id);
-  if (record.errand.before) news_.unexplained.insert(*record.errand.before);
+  if (before) news_.unexplained.insert(*before);
   ++priorities_[job.terms.priority];
-  for (JobId before : job.after) followers_[before].push_back(job.id);
+  for (JobId first : job.after) followers_[first].push_back(job.id);
   Record& added = records_.emplace(job.id, std::move(record)).first->second;
   changed(added);
   return added;
@@ -65,9 +66,13 @@ const Record* JobBook::find(JobId job) const {
 }
 
 void JobBook::put_in_order(const std::vector<JobId>& jobs) {
-  queues_.put_in_order(at(jobs.front()).job, jobs);
+  std::vector<StepId> steps;
   std::vector<JobId> turns;
-  for (JobId id : jobs) turns.push_back(at(id).turn);
+  for (JobId id : jobs) {
+    steps.push_back(only_step(id));
+    turns.push_back(at(id).turn);
+  }
+  queues_.put_in_order(at(jobs.front()).job, steps);
   std::ranges::sort(turns);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     at(jobs[i]).turn = turns[i];
@@ -130,7 +135,7 @@ void JobBook::decide_arm(Record& record) {
 void JobBook::explain_with_next(const Job& job) {
   news_.unexplained.insert(job.id);
   for (ArmId arm : job.trajectory->arms()) {
-    if (const auto next = queues_.behind(job, arm)) news_.unexplained.insert(*next);
+    if (const auto next = queues_.behind(job, arm)) news_.unexplained.insert(next->job);
   }
 }
 
@@ -206,11 +211,11 @@ std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
   std::map<JobId, JobId> behind;  // of an errand: the job whose turn counts
   for (const auto& queue : book.queues()) {
     std::optional<JobId> first;
-    for (auto id = queue.rbegin(); id != queue.rend(); ++id) {
-      if (!book.at(*id).errand.before) {
-        first = *id;
+    for (auto step = queue.rbegin(); step != queue.rend(); ++step) {
+      if (!book.at(*step).errand.before) {
+        first = step->job;
       } else if (first) {
-        behind.emplace(*id, *first);
+        behind.emplace(step->job, *first);
       }
     }
   }
@@ -232,7 +237,7 @@ std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
     for (const ArmId arm : book.at(job).leg.arms) {
       const auto& queue = book.queues()[arm];
       std::size_t& next = passed[arm.index()];
-      for (; next < queue.size() && queue[next] != job; ++next) again(queue[next], again);
+      for (; next < queue.size() && queue[next].job != job; ++next) again(queue[next].job, again);
     }
     sorted.push_back(job);
   };

@@ -18,7 +18,7 @@ namespace armloom {
 // Retreats of one arm tried for a job (yield_moves.h).
 struct YieldsTried {
   struct Planned {
-    std::optional<std::uint64_t> question = {};  // number of the open question
+    PlanRequest request = {};
     bool is_answered = false;
     TrajectoryPtr way = nullptr;  // null if no path was found
   };
@@ -123,6 +123,11 @@ class JobBook {
   [[nodiscard]] const Record* find(JobId job) const;
   [[nodiscard]] Record& at(JobId job) { return records_.at(job); }
   [[nodiscard]] const Record& at(JobId job) const { return records_.at(job); }
+  // Return the record of the step's job.
+  [[nodiscard]] Record* find(StepId step) { return find(step.job); }
+  [[nodiscard]] const Record* find(StepId step) const { return find(step.job); }
+  [[nodiscard]] Record& at(StepId step) { return at(step.job); }
+  [[nodiscard]] const Record& at(StepId step) const { return at(step.job); }
   // Return the jobs that have not ended: all, or only those whose state is no longer `queued`.
   // Ascending ids.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }

@@ -12,7 +12,7 @@ bool is_way_open(const Job& job) { return job.goal && job.in<Queued>() != nullpt
 
 WaitingLeg waiting_leg(const Record& record) {
   WaitingLeg leg = record.leg;
-  leg.after = record.job.after;
+  for (JobId before : record.job.after) leg.after.push_back(only_step(before));
   leg.is_estimate = is_way_open(record.job);
   leg.is_approached = record.is_brought_to_start();
   return leg;
@@ -30,7 +30,7 @@ void Lanes::follow(const Job& job, const JobPhase& before) {
   const bool waited = std::holds_alternative<Queued>(before);
   const auto* ended = job.in<Ended>();
   if (waited && ended != nullptr) {
-    if (!sequence_.remove(job.id)) is_stale_ = true;
+    if (!sequence_.remove(job.step())) is_stale_ = true;
   } else if (!waited && (job.in<Queued>() != nullptr ||
                          (ended != nullptr && ended->state != JobState::succeeded))) {
     is_stale_ = true;
@@ -42,10 +42,10 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   std::vector<PlacePtr> stands = arms.places();
   std::set<JobId> waiting;
   for (std::uint32_t arm = 0; arm < stands.size(); ++arm) {
-    for (JobId id : book.queues()[ArmId{arm}]) {
-      const Record& record = book.at(id);
+    for (StepId step : book.queues()[ArmId{arm}]) {
+      const Record& record = book.at(step);
       if (record.job.in<Queued>() != nullptr) {
-        if (record.job.knows_its_end()) waiting.insert(id);
+        if (record.job.knows_its_end()) waiting.insert(step.job);
         continue;
       }
       for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
@@ -58,24 +58,24 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
     const Record& record = book.at(id);
     WaitingLeg& leg = legs.emplace_back(waiting_leg(record));
     if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
-      leg.after.push_back(*record.errand.lets_pass);
+      leg.after.push_back(only_step(*record.errand.lets_pass));
     }
   }
   sequence_.renew(std::move(stands), legs);
 }
 
-SafeSequence::Outlook Lanes::after(const std::vector<JobId>& jobs, const JobBook& book,
+SafeSequence::Outlook Lanes::after(const std::vector<StepId>& steps, const JobBook& book,
                                    const ArmRests& arms) {
-  const auto in_queue = [&](JobId id) { return book.at(id).job.in<Queued>() != nullptr; };
-  if (!std::ranges::all_of(jobs, in_queue)) return {};
+  const auto in_queue = [&](StepId step) { return book.at(step).job.in<Queued>() != nullptr; };
+  if (!std::ranges::all_of(steps, in_queue)) return {};
   renew(book, arms);
-  return sequence_.after(jobs);
+  return sequence_.after(steps);
 }
 
-bool Lanes::has_place(JobId job, const JobBook& book, const ArmRests& arms) {
+bool Lanes::has_place(StepId step, const JobBook& book, const ArmRests& arms) {
   renew(book, arms);
   (void)sequence_.after({});
-  return sequence_.has_place(job);
+  return sequence_.has_place(step);
 }
 
 void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book) {
@@ -97,12 +97,12 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
   }
 }
 
-void Lanes::learn_in_the_way(JobId job, ArmId arm, const PassageBlock& block, const JobBook& book,
+void Lanes::learn_in_the_way(StepId step, ArmId arm, const PassageBlock& block, const JobBook& book,
                              const ArmRests& arms) {
   const auto& queue = book.queues()[ArmId{arm}];
   const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
   if (!rests || is_stale_) return;
-  sequence_.learn({job, arms.place(arm), book.at(job).leg.motion}, false,
+  sequence_.learn({step, arms.place(arm), book.at(step).leg.motion}, false,
                   std::make_shared<const PassageBlock>(block));
 }
 

@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// Keeps the safe sequence (safe_sequence.h) of the waiting jobs up to date. Its legs are the queued
-// jobs. Admitted, braking and held jobs are assumed to reach their ends, even if they are stopped
-// now. An arm whose job ended elsewhere is assumed to stay there.
+// Keeps the safe sequence (safe_sequence.h) of the waiting steps up to date. Its legs are the steps
+// of queued jobs. Admitted, braking and held jobs are assumed to reach their ends, even if they are
+// stopped now. An arm whose job ended elsewhere is assumed to stay there.
 class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
@@ -21,33 +21,33 @@ class Lanes {
   void add(const Record& record);
   void follow(const Job& job, const JobPhase& before);
   void renew_later() { is_stale_ = true; }
-  // Records that the jobs of the last after() call were admitted.
-  void admitted(const std::vector<JobId>& jobs) { sequence_.admitted(jobs); }
+  // Records that the steps of the last after() call were admitted.
+  void admitted(const std::vector<StepId>& steps) { sequence_.admitted(steps); }
 
-  // Returns what remains of the sequence if these jobs are admitted now. There is no objection if
-  // one of them is not queued: the sequence already counts with the end of a job on its path.
-  [[nodiscard]] SafeSequence::Outlook after(const std::vector<JobId>& jobs, const JobBook& book,
+  // Returns what remains of the sequence if these steps are admitted now. There is no objection if
+  // one of them is not queued: the sequence already counts with the end of a step on its path.
+  [[nodiscard]] SafeSequence::Outlook after(const std::vector<StepId>& steps, const JobBook& book,
                                             const ArmRests& arms);
   // Returns true if `first` precedes `other` in the sequence, or if the sequence must be renewed
   // first.
-  [[nodiscard]] bool goes_before(JobId first, JobId other) const {
+  [[nodiscard]] bool goes_before(StepId first, StepId other) const {
     return is_stale_ || sequence_.goes_before(first, other);
   }
-  // Returns true if the job is in the sequence, or is none of its legs.
-  [[nodiscard]] bool has_place(JobId job, const JobBook& book, const ArmRests& arms);
-  // Returns true if the job begins where the jobs before it leave its arms.
-  [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }
+  // Returns true if the step is in the sequence, or is none of its legs.
+  [[nodiscard]] bool has_place(StepId step, const JobBook& book, const ArmRests& arms);
+  // Returns true if the step begins where the steps before it leave its arms.
+  [[nodiscard]] bool follows_on(StepId step) const { return sequence_.follows_on(step); }
   void renew(const JobBook& book, const ArmRests& arms);
 
   void learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book);
-  // A check found that `arm` at its rest blocks the job's path. Ignored if the arm has a job that
-  // is admitted or on its path.
-  void learn_in_the_way(JobId job, ArmId arm, const PassageBlock& block, const JobBook& book,
+  // A check found that `arm` at its rest blocks the step's path. Ignored if the arm has a step
+  // that is admitted or on its path.
+  void learn_in_the_way(StepId step, ArmId arm, const PassageBlock& block, const JobBook& book,
                         const ArmRests& arms);
   void forget_passages() { sequence_.forget_passages(); }
 
  private:
-  SafeSequence sequence_;  // of all queued jobs
+  SafeSequence sequence_;  // of the steps of all queued jobs
   bool is_stale_ = true;
 };
 

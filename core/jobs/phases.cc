@@ -13,24 +13,24 @@ using Then = AfterStop::Then;
 // Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
 // begin where it would have ended.
 void leave_graph(State& state, const Record& record) {
-  if (!state.graph.holds(record.job.id)) return;
-  std::set<JobId> behind;
+  if (!state.graph.holds(record.job.step())) return;
+  std::set<StepId> behind;
   for (ArmId arm : record.job.trajectory->arms()) {
     const auto& queue = state.jobs.queues()[arm];
-    const auto own = std::ranges::find(queue, record.job.id);
+    const auto own = std::ranges::find(queue, record.job.step());
     if (own == queue.end()) continue;
     for (auto next = own + 1; next != queue.end(); ++next) {
       if (state.graph.holds(*next)) behind.insert(*next);
     }
   }
-  for (auto job = behind.rbegin(); job != behind.rend(); ++job) {
-    if (state.graph.holds(*job)) withdraw(state, state.jobs.at(*job), {});
+  for (auto step = behind.rbegin(); step != behind.rend(); ++step) {
+    if (state.graph.holds(*step)) withdraw(state, state.jobs.at(*step), {});
   }
   state.expected.spoil();
-  state.graph.abandon(record.job.id, record.job.progress, record.farthest);
+  state.graph.abandon(record.job.step(), record.job.progress, record.farthest);
 }
 
-void release(State& state, JobId job) { state.decided.effects.push_back(Release{job}); }
+void release(State& state, const Job& job) { state.decided.effects.push_back(Release{job.step()}); }
 
 void end_as(State& state, Record& record, const AfterStop& after, const char* canceled) {
   if (after.then == Then::cancel) {
@@ -44,13 +44,13 @@ void end_as(State& state, Record& record, const AfterStop& after, const char* ca
 void end_at_rest(State& state, Record& record, const AfterStop& after) {
   const bool held = record.job.has_started();
   end_as(state, record, after, held ? "canceled while paused" : "canceled before it moved");
-  if (held) release(state, record.job.id);
+  if (held) release(state, record.job);
 }
 
 // Stopped before it had moved: it keeps its place between the others, but for objects that have
 // come into its way.
 void rest_at_start(State& state, Record& record) {
-  release(state, record.job.id);
+  release(state, record.job);
   state.jobs.changed(record);
   enter(state, record, Admitted{});
 }
@@ -64,7 +64,7 @@ const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
   return *std::ranges::min_element(job.alternatives, {}, [&](const TrajectoryPtr& motion) {
     const auto& queue = state.jobs.queues()[motion->arms().front()];
     Duration work{};
-    for (JobId id : queue) work += state.jobs.at(id).job.trajectory->duration();
+    for (StepId step : queue) work += state.jobs.at(step).job.trajectory->duration();
     return work;
   });
 }
@@ -90,7 +90,7 @@ Record record_of(State& state, const Submit& job) {
                         .is_held_over = job.is_held_over,
                         .awaits_record = job.start_is_recorded,
                         .alternatives = job.alternatives},
-                .leg = state.arms.leg_of(*state.cell, job.job, *motion),
+                .leg = state.arms.leg_of(*state.cell, only_step(job.job), *motion),
                 .turn = job.job,
                 .errand = {.on_behalf_of = job.job}};
   const Duration usual = state.cell->scheduling.backlog_timeout;
@@ -118,7 +118,7 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   refuse_approach(state, record, reason, detail);
   const bool succeeded = how == JobState::succeeded;
   if (succeeded) {
-    state.graph.finish(record.job.id);
+    state.graph.finish(record.job.step());
   } else {
     leave_graph(state, record);
   }
@@ -164,7 +164,7 @@ void brake(State& state, Record& record, AfterStop after) {
   if (braking != nullptr && braking->after.then != Then::hold) next.after = braking->after;
   if (braking == nullptr) {
     ++state.version;
-    state.decided.effects.push_back(Brake{job.id});
+    state.decided.effects.push_back(Brake{job.step()});
   }
   if (next.after.then == Then::hold && job.has_started()) next.state = JobState::paused;
   enter(state, record, std::move(next));
@@ -210,13 +210,13 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
     state.jobs.changed(record);
     return;
   }
-  release(state, job.id);
+  release(state, job);
 }
 
 void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
   Job& job = record.job;
   leave_graph(state, record);
-  if (job.has_started()) release(state, job.id);
+  if (job.has_started()) release(state, job);
   enter(state, record, Queued{});
   job.times.backlogged_at.reset();
   job.times.scheduled_at.reset();
@@ -227,7 +227,7 @@ void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
 }
 
 void go_by(State& state, Record& record, TrajectoryPtr way) {
-  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *way);
+  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.step(), *way);
   state.jobs.set_motion(record, std::move(way), std::move(leg));
   state.lanes.renew_later();
   ++state.version;

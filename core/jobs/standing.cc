@@ -37,8 +37,8 @@ std::optional<Wait> held_where_it_stands(const State& state, const Record& recor
   const Job& job = record.job;
   const auto* moving = job.in<Moving>();
   const bool may_stand = job.in<Admitted>() != nullptr || (moving != nullptr && moving->pause);
-  if (!may_stand || state.graph.limit(job.id) > job.progress + kAtLimit) return std::nullopt;
-  const auto held = state.graph.held_back(job.id);
+  if (!may_stand || state.graph.limit(job.step()) > job.progress + kAtLimit) return std::nullopt;
+  const auto held = state.graph.held_back(job.step());
   return held ? std::optional(wait_for(*held)) : std::nullopt;
 }
 
@@ -46,10 +46,12 @@ bool holds_one_ahead(const State& state, const Record& record) {
   const auto& arms = record.job.trajectory->arms();
   return std::ranges::any_of(arms, [&](ArmId arm) {
     const auto& queue = state.jobs.queues()[arm];
-    const auto goes_ahead = [&](JobId id) { return id != record.job.id && state.graph.holds(id); };
+    const auto goes_ahead = [&](StepId step) {
+      return step != record.job.step() && state.graph.holds(step);
+    };
     const auto end = std::ranges::find_if_not(queue, goes_ahead);
     return std::any_of(queue.begin(), end,
-                       [&](JobId id) { return state.graph.is_held_by(id, arms); });
+                       [&](StepId step) { return state.graph.is_held_by(step, arms); });
   });
 }
 

@@ -70,7 +70,7 @@ struct State {
   [[nodiscard]] bool is_judged(const Job& job) const {
     const Judgement& found = job.judgement();
     if (found.at != version) return false;
-    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, job.id);
+    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, job.step());
   }
 };
 

@@ -27,31 +27,30 @@ class Timetable {
         motions_(state.graph.motions()),
         chains_(motions_),
         dependencies_(state.graph.dependencies()) {
-    std::vector<MotionAhead> ahead;
-    for (std::size_t m = 0; m < motions_.size(); ++m) {
+    std::vector<CoordinatedMotion> motions = motions_;
+    HeldAt held_at = state.graph.held_at();
+    for (std::size_t m = 0; m < motions.size(); ++m) {
       const bool is_stopped = held_by(m).has_value();
       stands_.push_back(is_stopped ? Duration{} : stood_for(*state.cell, job(m), now));
-      ahead.push_back(
-          {.progress = motions_[m].progress,
-           .duration = motions_[m].duration,
-           .after = chains_.before(m),
-           .held_at = is_stopped ? motions_[m].progress : motions_[m].held_at,
-           .stands_for = stands_[m],
-           .pace = pace_of(*state.cell, job(m), state.speed.pace(motions_[m].arms), now)});
+      if (is_stopped) held_at[m] = motions[m].progress;
+      motions[m].outlook = {
+          .stands_for = stands_[m],
+          .pace = pace_of(*state.cell, job(m), state.speed.pace(motions[m].arms), now)};
     }
-    prediction_ = predict(ahead, dependencies_);
+    prediction_ = predict(motions, chains_, dependencies_, held_at);
   }
 
   [[nodiscard]] PredictedLeg leg(std::size_t m) const {
     const bool stuck = is_stuck(m);
-    PredictedLeg leg{.job = motions_[m].job, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
+    PredictedLeg leg{
+        .step = motions_[m].step, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
     if (!stuck && !is_given_up(job(m))) leg.ends = now_ + prediction_.ends[m];
     if (stuck) leg.pauses.push_back(last_pause(m));
     return leg;
   }
 
  private:
-  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].job).job; }
+  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].step).job; }
 
   // Returns what keeps the motion at rest for an unknown time: a stop, or what the last check of a
   // motion that rests on its path has found.
@@ -96,8 +95,8 @@ class Timetable {
     if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
     const auto [at, from] = stages.back();
     if (auto held = held_by(m)) return {now_ + from, std::nullopt, at, std::move(held)};
-    const auto rests = state_.graph.rests_ahead(motions_[m].job);
-    const bool is_blocked = rests && *motions_[m].held_at <= at;
+    const auto rests = state_.graph.rests_ahead(motions_[m].step);
+    const bool is_blocked = rests && *state_.graph.held_at()[m] <= at;
     return {now_ + from, std::nullopt, at,
             is_blocked ? wait_for(*rests) : waits_on(m, at, std::nullopt)};
   }
@@ -106,7 +105,7 @@ class Timetable {
   [[nodiscard]] std::optional<Wait> behind(std::size_t m) const {
     for (const std::size_t before : chains_.before(m)) {
       if (is_stuck(before))
-        return Wait{.kind = Wait::Kind::predecessor, .job = motions_[before].job};
+        return Wait{.kind = Wait::Kind::predecessor, .job = motions_[before].step.job};
     }
     return std::nullopt;
   }

@@ -18,7 +18,7 @@ struct PredictedPause {
 // The prediction for an admitted motion. Time in which it waits for earlier motions of its own arms
 // is not a pause.
 struct PredictedLeg {
-  JobId job;
+  StepId step;
   std::optional<TimePoint> starts;  // when it leaves, or has left, its start; nullopt: never
   std::optional<TimePoint> ends;    // nullopt: no end predicted
   std::vector<PredictedPause> pauses;

@@ -12,7 +12,7 @@ Wait wait_for(const Conflict& conflict) {
   wait.arm = conflict.proximity.arm_b;
   if (conflict.with == Conflict::With::motion) {
     wait.kind = Wait::Kind::job;
-    wait.job = conflict.other_job;
+    if (conflict.other_step) wait.job = conflict.other_step->job;
   } else if (conflict.with == Conflict::With::rest) {
     wait.kind = Wait::Kind::arm;
   }
@@ -21,7 +21,7 @@ Wait wait_for(const Conflict& conflict) {
 
 Wait wait_for(const Blocker& blocker) {
   return Wait{.kind = blocker.other ? Wait::Kind::job : Wait::Kind::arm,
-              .job = blocker.other,
+              .job = blocker.other ? std::optional(blocker.other->job) : std::nullopt,
               .arm = blocker.arm ? blocker.arm : blocker.proximity.arm_b,
               .proximity = blocker.proximity,
               .own_time = blocker.own_time,

@@ -9,6 +9,10 @@
 
 namespace armloom {
 
+// A condition that ends for less than this time is not reported again when it returns, unless the
+// finding stops an arm that is not stopped. So noise around a limit does not cause many findings.
+inline constexpr Duration kSameCondition = std::chrono::seconds(1);
+
 // A finding of the monitor, and the arms to be stopped for it (README.md).
 struct MonitorFinding {
   enum class Kind {

@@ -196,14 +196,14 @@ std::vector<MonitorFinding> LookAhead::check(const Observation& seen, const Prem
   }
   const std::vector<ArmId> stops = smallest_stop_set(conflicts);
 
+  std::erase_if(known_,
+                [&seen](const auto& known) { return seen.time - known.second >= kSameCondition; });
   std::vector<MonitorFinding> found;
-  std::set<Conflicting> known;
   for (Predicted& one : predicted) {
     const Conflicting pair{
         std::min(one.conflict.a, one.other.value_or(one.conflict.a)),
         one.other ? std::optional(std::max(one.conflict.a, *one.other)) : std::nullopt};
-    const bool is_new = !known_.contains(pair);
-    known.insert(pair);
+    const bool is_new = known_.insert_or_assign(pair, seen.time).second;
     MonitorFinding finding{.kind = MonitorFinding::Kind::approach,
                            .time = seen.time,
                            .proximity = std::move(one.evidence)};
@@ -214,7 +214,6 @@ std::vector<MonitorFinding> LookAhead::check(const Observation& seen, const Prem
     }
     if (is_new || !finding.stops.empty()) found.push_back(std::move(finding));
   }
-  known_ = std::move(known);
   return found;
 }
 

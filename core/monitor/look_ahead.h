@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -44,8 +43,8 @@ class LookAhead {
   LookAhead(CellPtr cell, Duration period);
 
   // `stopping`: by ArmId, arms that other findings of this period stop. `premises`: after the check
-  // of this period. A conflict is reported when it is first predicted, and whenever it stops an
-  // arm. Each finding names the arms that are stopped for it.
+  // of this period. A conflict is reported when it was not predicted for kSameCondition, and
+  // whenever it stops an arm. Each finding names the arms that are stopped for it.
   [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen,
                                                   const PremiseCheck& premises,
                                                   const std::vector<bool>& stopping,
@@ -92,8 +91,8 @@ class LookAhead {
   [[nodiscard]] std::optional<double> rate_of(const ArmObservation& now,
                                               std::optional<Duration> elapsed, Duration overdue,
                                               Pace& pace) const;
-  std::vector<Pace> paces_;      // by ArmId; of the last period
-  std::set<Conflicting> known_;  // predicted in the last period
+  std::vector<Pace> paces_;                 // by ArmId; of the last period
+  std::map<Conflicting, TimePoint> known_;  // when each was predicted last
 };
 
 }  // namespace armloom

@@ -37,7 +37,8 @@ struct ArmObservation {
   double speed = 1.0;        // speed override: largest share of the planned rate
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
-  bool brakes = false;  // it comes to rest and has no other command
+  bool brakes = false;      // it comes to rest and has no other command
+  bool is_stopped = false;  // until it is resumed
   // When its controller reported that it obeys a brake, if no motion was commanded since.
   std::optional<TimePoint> braking_since = {};
   std::optional<Duration> rests_at = {};  // while it brakes: the progress where it will rest

@@ -56,17 +56,16 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
       continue;
     }
     if (seen.arms[a].starts != state.last.starts) begin_motion(arm, seen);
-    check_feedback(arm, seen, found);
-    if (!state.violations[static_cast<std::size_t>(Kind::late_feedback)].holds) {
+    if (!check_feedback(arm, seen, found)) {
       check_path(arm, seen, found);
       check_rest(arm, seen, found);
       check_stop(arm, seen, found);
     }
-    const bool moved = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)].holds;
-    state.elsewhere = moved && time_ && std::ranges::all_of(state.joints, [&](JointId joint) {
-                        return std::abs(seen.measured[joint.value()] - measured_[joint.value()]) <=
-                               tracking_error(*cell_, arm);
-                      });
+    state.elsewhere =
+        state.moved_at && time_ && std::ranges::all_of(state.joints, [&](JointId joint) {
+          return std::abs(seen.measured[joint.value()] - measured_[joint.value()]) <=
+                 tracking_error(*cell_, arm);
+        });
     state.last = seen.arms[a];
   }
   measured_ = seen.measured;
@@ -74,17 +73,20 @@ std::vector<MonitorFinding> PremiseCheck::check(const Observation& seen) {
   return found;
 }
 
+void PremiseCheck::resumed(ArmId arm) { arms_[arm.index()].violations = {}; }
+
 // Reports a violation when it begins, or goes on after a rest.
 void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding finding,
                          std::vector<MonitorFinding>& found) {
   Violation& known = arms_[arm.index()].violations[static_cast<std::size_t>(finding.kind)];
   if (!holds) {
-    known = {};
+    known.has_rested = known.has_rested || rests;
     return;
   }
-  const bool is_new = !known.holds || (known.has_rested && !rests);
+  const bool is_known = known.held_at && finding.time - *known.held_at < kSameCondition;
+  const bool is_new = !is_known || (known.has_rested && !rests);
   known.has_rested = !is_new && (known.has_rested || rests);
-  known.holds = true;
+  known.held_at = finding.time;
   if (!is_new) return;
   finding.arm = arm;
   // The link of an arm without reports stops it (core/executive/link_watch.h).
@@ -94,19 +96,19 @@ void PremiseCheck::judge(ArmId arm, bool holds, bool rests, MonitorFinding findi
 
 // The arm rested before it started, also if no period saw it.
 void PremiseCheck::begin_motion(ArmId arm, const Observation& seen) {
-  ArmState& state = arms_[arm.index()];
-  for (Violation& known : state.violations) known.has_rested = known.holds;
-  if (!state.rested) begin_rest(arm, seen);
+  resumed(arm);
+  if (!arms_[arm.index()].rested) begin_rest(arm, seen);
 }
 
 // ---- Feedback ----
 
-void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
+bool PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
                                   std::vector<MonitorFinding>& found) {
   ArmState& state = arms_[arm.index()];
   const ArmObservation& now = seen.arms[arm.index()];
   const Duration timeout = cell_->robots[cell_->arm(arm).robot.index()].controller.feedback_timeout;
-  judge(arm, now.feedback_age > timeout, now.rests,
+  const bool is_late = now.feedback_age > timeout;
+  judge(arm, is_late, now.rests,
         {.kind = Kind::late_feedback,
          .time = seen.time,
          .value = to_seconds(now.feedback_age),
@@ -138,6 +140,7 @@ void PremiseCheck::check_feedback(ArmId arm, const Observation& seen,
          .value = to_seconds(seen.time - state.changed_at),
          .limit = to_seconds(timeout)},
         found);
+  return is_late;
 }
 
 // Finds positions that changed faster than the joints can move. `elapsed`: between the reports.
@@ -180,8 +183,8 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
     judge(arm, false, true, {.kind = Kind::beyond_authority, .time = seen.time}, found);
     // A deviation ends when the arm rests: from then on the rest is checked.
     Violation& known = state.violations[static_cast<std::size_t>(Kind::deviation)];
-    if (now.motion) known.has_rested = known.holds;
     if (!now.motion) known = {};
+    known.has_rested = true;
     return;
   }
   const double limit = observed_limit(now.off_path, tracking_error(*cell_, arm));
@@ -218,25 +221,42 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
         found);
 }
 
-// A brake from the planned rate takes at most twice the stopping reach. Then the arm follows its
-// commands until the lag has died out.
+// Returns the longest time from the acknowledgment of a brake until the arm stands. A brake from
+// the planned rate takes at most twice the stopping reach. Then the arm follows its commands until
+// the lag has died out. Without a motion, each joint may have its largest velocity.
+Duration PremiseCheck::stopping_time(ArmId arm, bool has_motion) const {
+  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
+  Duration braking = has_motion ? 2 * stopping_reach(arm) : Duration{};
+  for (const JointId joint : joints(arm)) {
+    const double brake_s = velocity_limit(*cell_, joint) / cell_->joint(joint).brake;
+    if (!has_motion) braking = std::max(braking, from_seconds(brake_s));
+  }
+  return controller.reaction + controller.feedback_period + kSettles * controller.lag + braking;
+}
+
 void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
                               std::vector<MonitorFinding>& found) {
+  ArmState& state = arms_[arm.index()];
   const ArmObservation& now = seen.arms[arm.index()];
-  MonitorFinding finding{.kind = Kind::stop_ignored, .time = seen.time};
-  const ArmObservation& last = arms_[arm.index()].last;
-  const bool advances =
-      std::max(now.commanded, now.measured) > std::max(last.commanded, last.measured);
-  if (!now.braking_since || !now.motion || now.rests || !advances) {
-    return judge(arm, false, true, std::move(finding), found);
+  const bool rests = !now.motion || now.rests;
+  if (!now.braking_since) return judge(arm, false, rests, {Kind::stop_ignored, seen.time}, found);
+  bool moves = false;
+  Duration told = seen.time - *now.braking_since;
+  const Duration limit = stopping_time(arm, !rests);
+  if (!rests) {
+    moves = told > limit && std::max(now.commanded, now.measured) >
+                                std::max(state.last.commanded, state.last.measured);
+  } else if (since(state.last.reported, now.reported)) {
+    told = std::min(told, seen.time - state.braked_at);
+    moves =
+        state.moves_on.observe(seen.measured, state.joints, tracking_error(*cell_, arm), seen.time);
   }
-  const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
-  const Duration told = seen.time - *now.braking_since;
-  const Duration allowance =
-      controller.reaction + controller.feedback_period + kSettles * controller.lag;
-  finding.value = to_seconds(told);
-  finding.limit = to_seconds(allowance + 2 * stopping_reach(arm));
-  judge(arm, finding.value > finding.limit, false, std::move(finding), found);
+  judge(arm, moves, rests,
+        {.kind = Kind::stop_ignored,
+         .time = seen.time,
+         .value = to_seconds(told),
+         .limit = to_seconds(limit)},
+        found);
 }
 
 void PremiseCheck::set_rest(ArmState& state, const Configuration& measured) {
@@ -279,33 +299,36 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
   const double limit = tracking_error(*cell_, arm);
   if (rests && !state.rested) begin_rest(arm, seen);
   state.rested = rests;
-  if (!rests) return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = {}}, found);
+  if (!rests) {
+    state.moved_at.reset();
+    state.moves_on.end();
+    return judge(arm, false, false, {.kind = Kind::unplanned_motion, .time = seen.time}, found);
+  }
   Farthest far;
   for (const JointId joint : state.joints) {
     const double away = std::abs(seen.measured[joint.value()] - state.rest[joint.value()]);
     if (away > far.distance) far = {away, joint};
   }
   const bool moved = far.distance > limit;
-  Violation& known = state.violations[static_cast<std::size_t>(Kind::unplanned_motion)];
-  if (known.holds) {  // until it stands still
-    state.as_certified = false;
-    if (seen.time - state.still_since < kStill) return;
-    if (!moved) known = {};
+  if (moved) {
+    state.moved_at = seen.time;
     set_rest(state, seen.measured);
-    state.still_since = seen.time;
-    return;
+  } else if (state.moved_at && seen.time - *state.moved_at >= kStill) {
+    state.moved_at.reset();
   }
-  if (!moved) return;
-  state.as_certified = false;
-  state.still_since = seen.time;
-  judge(arm, true, true,
+  state.as_certified = state.as_certified && !state.moved_at;
+  const std::size_t before = found.size();
+  judge(arm, moved, true,
         {.kind = Kind::unplanned_motion,
          .time = seen.time,
          .joint = far.joint,
          .value = far.distance,
          .limit = limit},
         found);
-  set_rest(state, seen.measured);
+  // An arm that was stopped before may be moved by a person.
+  if (found.size() == before || now.is_stopped) return;
+  state.braked_at = seen.time;
+  state.moves_on.begin(seen.time + stopping_time(arm, false));
 }
 
 std::optional<MonitorFinding> PremiseCheck::finished(ArmId arm, const Trajectory& motion,

@@ -7,6 +7,7 @@
 #include "core/base/enumeration.h"
 #include "core/monitor/earliest_rest.h"
 #include "core/monitor/finding.h"
+#include "core/monitor/moves_on.h"
 #include "core/monitor/observation.h"
 #include "core/monitor/path_distance.h"
 
@@ -21,9 +22,12 @@ class PremiseCheck {
   explicit PremiseCheck(CellPtr cell);
 
   // Returns the new findings of this period; each stops its arm, except
-  // late_feedback. A violation is reported when it
-  // begins, and again if the arm moves on after it came to rest. `time` grows from call to call.
+  // late_feedback. A violation is reported when it begins, and again if the arm moves on after it
+  // came to rest, or was resumed. A violation begins if it did not hold for kSameCondition. `time`
+  // grows from call to call.
   [[nodiscard]] std::vector<MonitorFinding> check(const Observation& seen);
+  // The arm is no longer stopped: each violation that still holds is reported again.
+  void resumed(ArmId arm);
   // Checks an arm whose controller reports "finished". Returns a finding if it is not at the goal.
   [[nodiscard]] std::optional<MonitorFinding> finished(ArmId arm, const Trajectory& motion,
                                                        const Configuration& measured,
@@ -62,8 +66,8 @@ class PremiseCheck {
 
  private:
   struct Violation {
-    bool holds = false;
-    bool has_rested = false;  // since it was reported
+    std::optional<TimePoint> held_at = {};  // last time
+    bool has_rested = false;                // since it was reported
   };
   struct ArmState {
     EarliestRest earliest_rest;
@@ -73,18 +77,23 @@ class PremiseCheck {
     ArmObservation last = {};
     TimePoint changed_at{};     // when the positions last changed
     Duration commanded_then{};  // commanded progress then
-    TimePoint still_since{};    // unplanned_motion: start of the present window
+    // Set while it rests, until it stands still: when it last moved by more than its limit.
+    std::optional<TimePoint> moved_at = {};
+    TimePoint braked_at{};  // when the monitor stopped its unplanned motion
+    MovesOn moves_on = {};  // after that brake
     double deviation = 0.0;
     bool as_certified = true;
     bool keeps_authority = true;
     bool elsewhere = false;  // rests_elsewhere()
     std::array<Violation, kValueCount<Kind>> violations = {};
   };
-  void check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  // Returns true if the arm's last report is too old.
+  bool check_feedback(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_change(ArmId arm, const Observation& seen, Duration elapsed,
                     std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
+  [[nodiscard]] Duration stopping_time(ArmId arm, bool has_motion) const;
   void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void begin_motion(ArmId arm, const Observation& seen);
   void begin_rest(ArmId arm, const Observation& seen);

@@ -33,19 +33,19 @@ std::vector<ArmId> moving_arms(const Proximity& proximity, const std::vector<boo
 std::vector<MonitorFinding> PresentCheck::observe(const std::vector<Proximity>& too_close,
                                                   const std::vector<bool>& moving, TimePoint now) {
   std::vector<MonitorFinding> findings;
-  std::map<Pair, double> still_known;  // what is no longer too close is forgotten
+  std::map<Pair, Known> known;
   for (const Proximity& proximity : too_close) {
     Pair key = key_of(proximity);
     std::vector<ArmId> stops = moving_arms(proximity, moving);
     const auto before = known_.find(key);
-    const bool found_before = before != known_.end();
+    const bool is_known = before != known_.end();
+    const bool stays = is_known && !before->second.parted_at;
     const bool closer =
-        found_before && !stops.empty() && proximity.clearance_m < before->second - kCloserBy_m;
-    if (found_before && !closer) {
-      still_known.emplace(std::move(key), before->second);
-      continue;
-    }
-    if (!still_known.emplace(std::move(key), proximity.clearance_m).second) continue;
+        stays && !stops.empty() && proximity.clearance_m < before->second.distance_m - kCloserBy_m;
+    const bool keeps_distance = stays && !closer;
+    const double distance_m = keeps_distance ? before->second.distance_m : proximity.clearance_m;
+    if (!known.try_emplace(std::move(key), Known{distance_m}).second) continue;
+    if (keeps_distance || (is_known && stops.empty())) continue;
     findings.push_back({.kind = proximity.clearance_m <= 0.0 ? MonitorFinding::Kind::contact
                                                              : MonitorFinding::Kind::clearance,
                         .time = now,
@@ -53,7 +53,11 @@ std::vector<MonitorFinding> PresentCheck::observe(const std::vector<Proximity>& 
                         .limit_m = proximity.limit_m,
                         .stops = std::move(stops)});
   }
-  known_ = std::move(still_known);
+  for (auto& [pair, parted] : known_) {
+    if (!parted.parted_at) parted.parted_at = now;
+    if (now - *parted.parted_at < kSameCondition) known.try_emplace(pair, parted);
+  }
+  known_ = std::move(known);
   return findings;
 }
 

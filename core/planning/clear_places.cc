@@ -27,12 +27,13 @@ class Clearing {
  private:
   [[nodiscard]] bool lets_pass(const Eigen::VectorXd& q) {
     set_joints(at_, cell_.arm(way_.arm).joints, q);
-    const Verdict verdict = motions_.judge({.version = 0,
-                                            .start_at = TimePoint{},
-                                            .candidates = {{JobId{0}, way_.motion, way_.progress}},
-                                            .others = {},
-                                            .rest = at_,
-                                            .method = Swept{TrackingErrors(cell_)}});
+    const Verdict verdict =
+        motions_.judge({.version = 0,
+                        .start_at = TimePoint{},
+                        .candidates = {{StepId{JobId{0}}, way_.motion, way_.progress}},
+                        .others = {},
+                        .rest = at_,
+                        .method = Swept{TrackingErrors(cell_)}});
     of_motions_ += verdict.evaluations;
     if (verdict.kind == Verdict::Kind::free) return true;
     // Only conflicts with this arm matter, because other conflicts of the motion do not depend on

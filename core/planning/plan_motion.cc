@@ -20,12 +20,13 @@ std::optional<Conflict> found_in_the_way(MotionChecker& checker, const PlanReque
                                          const TrajectoryPtr& trajectory) {
   const Verdict verdict = checker.judge({.version = 0,
                                          .start_at = TimePoint{},
-                                         .candidates = {{JobId{0}, trajectory, Duration{}}},
+                                         .candidates = {{StepId{JobId{0}}, trajectory, Duration{}}},
                                          .others = {},
                                          .rest = request.at,
                                          .method = Swept{TrackingErrors(checker.scene()->cell())}});
   if (verdict.kind == Verdict::Kind::free) return std::nullopt;
-  if (verdict.conflicts.empty()) return Conflict{Conflict::With::self, JobId{0}, {}, {}, {}, {}};
+  if (verdict.conflicts.empty())
+    return Conflict{Conflict::With::self, StepId{JobId{0}}, {}, {}, {}, {}};
   // The check also finds conflicts with arms that the request ignores.
   const auto counts = [&](const Conflict& conflict) {
     const auto& arm = conflict.proximity.arm_b;

@@ -30,10 +30,10 @@ class LockstepPolicy final : public Policy {
     const JobBook& book = state.jobs;
     std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
     for (const auto& queue : book.queues()) {
-      for (const JobId id : queue) {
-        const auto& before = book.at(id).errand.before;
+      for (const StepId step : queue) {
+        const auto& before = book.at(step).errand.before;
         if (!before) break;
-        if (round.jobs.contains(*before)) round.jobs.insert(id);
+        if (round.jobs.contains(*before)) round.jobs.insert(step.job);
       }
     }
     const bool stuck = std::ranges::all_of(
@@ -47,7 +47,7 @@ class LockstepPolicy final : public Policy {
       const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
                         is_at_head(book, record) && !operator_wait(state, record.job) &&
                         !may_go_first(state, record);
-      if (goes) round.jobs.insert(queue.front());
+      if (goes) round.jobs.insert(record.job.id);
     }
     return round;
   }

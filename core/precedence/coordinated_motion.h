@@ -21,12 +21,11 @@ struct Outlook {
 // An admitted motion, or a candidate for admission. In a list, the motions of one arm are in
 // running order, and each begins where the previous one ends.
 struct CoordinatedMotion {
-  JobId job;
+  StepId step;
   std::vector<ArmId> arms;
   Duration duration;
-  Duration progress{};                   // as measured
-  Duration authority{};                  // granted so far; never reduced
-  std::optional<Duration> held_at = {};  // progress at which an arm at rest in the path holds it
+  Duration progress{};   // as measured
+  Duration authority{};  // granted so far; never reduced
   int priority = 0;
   Duration horizon{};  // largest lead of its authority over its progress
   Outlook outlook = {};

@@ -1,9 +1,8 @@
 #include "core/precedence/open_orders.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
-
-#include "core/precedence/order_ties.h"
 
 namespace armloom {
 namespace {
@@ -12,6 +11,28 @@ using Member = OrderChoice::Member;
 
 std::size_t variant(bool a_first, bool at_start) {
   return (a_first ? 0U : 1U) + (at_start ? 2U : 0U);
+}
+
+bool overlap(Duration from_1, Duration to_1, Duration from_2, Duration to_2) {
+  return from_1 <= to_2 && from_2 <= to_1;
+}
+
+// Returns true if both regions contain the rest at which a motion of an arm ends, after `end`, and
+// the next one begins, for the same states of the passing motion. `d_side`: the arm's motion is A
+// in region d.
+bool meet_at_rest(const ConflictRegion& d, bool d_side, const ConflictRegion& e, bool e_side,
+                  Duration end) {
+  for (const ProgressBox& last : d.boxes) {
+    if ((d_side ? last.to_a : last.to_b) < end) continue;
+    for (const ProgressBox& first : e.boxes) {
+      if ((e_side ? first.from_a : first.from_b) > Duration{}) continue;
+      if (overlap(d_side ? last.from_b : last.from_a, d_side ? last.to_b : last.to_a,
+                  e_side ? first.from_b : first.from_a, e_side ? first.to_b : first.to_a)) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitted,
@@ -26,22 +47,16 @@ std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitt
 OpenOrders::OpenOrders(const OrderQuestion& question)
     : motions_(both(question.admitted, question.candidates)),
       first_candidate_(question.admitted.size()),
-      chains_(motions_) {
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    ahead_.push_back({.progress = motions_[m].progress,
-                      .duration = motions_[m].duration,
-                      .after = chains_.before(m),
-                      .stands_for = motions_[m].outlook.stands_for,
-                      .pace = motions_[m].outlook.pace});
-  }
+      chains_(motions_),
+      held_at_(question.held_at) {
   for (const Precedence& precedence : question.precedences) add_decided(precedence);
   decided_ = orders_.size();
   for (const PairRegions& pair : question.regions) add(pair);
   collect_choices();
 }
 
-std::optional<std::size_t> OpenOrders::index_of(JobId job) const {
-  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+std::optional<std::size_t> OpenOrders::index_of(StepId step) const {
+  const auto found = std::ranges::find(motions_, step, &CoordinatedMotion::step);
   if (found == motions_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - motions_.begin());
 }
@@ -58,7 +73,7 @@ void OpenOrders::add(const PairRegions& pair) {
     }
     return;
   }
-  const auto b = index_of(std::get<JobId>(pair.b));
+  const auto b = index_of(std::get<StepId>(pair.b));
   if (!b) return;  // has ended meanwhile
   for (const ConflictRegion& region : pair.regions) add(a, *b, region);
 }
@@ -129,8 +144,39 @@ void OpenOrders::note_in_the_way(std::size_t motion) {
 
 // ---- Choices ----
 
+// Two regions are one if an arm rests between two motions, one region ends at this rest, the other
+// begins there, and the same motion of another arm passes both. Returns for each order the orders
+// of the regions that its region touches so.
+std::vector<std::vector<Member>> OpenOrders::joined_at_rests() const {
+  std::vector<std::vector<Member>> joined(orders_.size());
+  std::multimap<std::pair<std::size_t, std::size_t>, std::size_t> of_pair;
+  for (std::size_t d = 0; d < orders_.size(); ++d) {
+    of_pair.emplace(std::minmax(orders_[d].a, orders_[d].b), d);
+  }
+  for (std::size_t e = 0; e < orders_.size(); ++e) {
+    for (const bool e_side : {true, false}) {  // true: the arm's motion is A
+      const std::size_t begins = e_side ? orders_[e].a : orders_[e].b;
+      const std::size_t passes = e_side ? orders_[e].b : orders_[e].a;
+      for (const std::size_t ends : chains_.before(begins)) {
+        const auto [first, last] = of_pair.equal_range(std::minmax(ends, passes));
+        for (auto of = first; of != last; ++of) {
+          const std::size_t d = of->second;
+          const bool d_side = orders_[d].a == ends;
+          if (!meet_at_rest(orders_[d].region, d_side, orders_[e].region, e_side,
+                            motions_[ends].duration)) {
+            continue;
+          }
+          joined[d].push_back({e, d_side != e_side});
+          joined[e].push_back({d, d_side != e_side});
+        }
+      }
+    }
+  }
+  return joined;
+}
+
 void OpenOrders::collect_choices() {
-  const OrderTies ties(orders_, motions_, chains_);
+  const auto joined = joined_at_rests();
   std::vector<bool> seen(orders_.size(), false);
   for (std::size_t d = 0; d < orders_.size(); ++d) {
     if (seen[d]) continue;
@@ -138,7 +184,7 @@ void OpenOrders::collect_choices() {
     seen[d] = true;
     for (std::size_t i = 0; i < choice.members.size(); ++i) {  // grows
       const Member member = choice.members[i];
-      for (const Member& tied : ties.of(member.order)) {
+      for (const Member& tied : joined[member.order]) {
         if (seen[tied.order]) continue;
         seen[tied.order] = true;
         choice.members.push_back({tied.order, member.turned != tied.turned});
@@ -187,7 +233,7 @@ const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first, bool at
   const bool begins = second.authority <= Duration{};
   std::optional<Precedence>& made = order.made[variant(a_first, at_start && begins)];
   if (!made) {
-    made.emplace(motions_[order.a].job, motions_[order.b].job, order.region, a_first,
+    made.emplace(motions_[order.a].step, motions_[order.b].step, order.region, a_first,
                  at_start && begins, second.outlook.pace / first.outlook.pace);
   }
   return *made;
@@ -210,7 +256,7 @@ std::optional<Duration> OpenOrders::broken_at(const OrderChoice& choice, bool va
   return broken;
 }
 
-Prediction OpenOrders::predicted(const std::vector<MotionAhead>& motions, std::size_t orders) {
+std::vector<Dependency> OpenOrders::dependencies(std::size_t orders) {
   std::vector<Dependency> dependencies;
   dependencies.reserve(orders);
   for (std::size_t d = 0; d < orders; ++d) {
@@ -219,17 +265,17 @@ Prediction OpenOrders::predicted(const std::vector<MotionAhead>& motions, std::s
     dependencies.push_back({order.a_first ? order.a : order.b, order.a_first ? order.b : order.a,
                             &precedence(order, order.a_first, order.at_start)});
   }
-  return predict(motions, dependencies);
+  return dependencies;
 }
 
 // What rests in the way of a motion may be what a candidate takes away.
-Prediction OpenOrders::predicted() { return predicted(ahead_, orders_.size()); }
+Prediction OpenOrders::predicted() {
+  return predict(motions_, chains_, dependencies(orders_.size()));
+}
 
 Prediction OpenOrders::predicted_before() {
-  std::vector<MotionAhead> ahead(ahead_.begin(),
-                                 ahead_.begin() + static_cast<std::ptrdiff_t>(first_candidate_));
-  for (std::size_t m = 0; m < ahead.size(); ++m) ahead[m].held_at = motions_[m].held_at;
-  return predicted(ahead, decided_);
+  return predict(std::span(motions_).first(first_candidate_), chains_, dependencies(decided_),
+                 held_at_);
 }
 
 // ---- The answers ----
@@ -267,8 +313,8 @@ void OpenOrders::report(std::size_t d) {
   const ConflictRegion& region = order.region;
   const bool own_is_a = order.a >= first_candidate_;
   answer_.blockers.push_back(
-      {.blocked = motions_[own_is_a ? order.a : order.b].job,
-       .other = motions_[own_is_a ? order.b : order.a].job,
+      {.blocked = motions_[own_is_a ? order.a : order.b].step,
+       .other = motions_[own_is_a ? order.b : order.a].step,
        .arm = std::nullopt,
        .proximity = own_is_a ? region.proximity : turned_around(region.proximity),
        .own_time = own_is_a ? region.time_a : region.time_b,

@@ -25,8 +25,8 @@ struct OpenOrder {
   std::array<std::optional<Precedence>, 4> made = {};  // cache, by a_first and at_start
 };
 
-// Orders that are decided together (order_ties.h): with one value of "a first", or with the
-// opposite value for members that are `turned`.
+// Orders that are decided together, because their regions are one across a rest: with one value of
+// "a first", or with the opposite value for members that are `turned`.
 struct OrderChoice {
   struct Member {
     std::size_t order;
@@ -78,23 +78,24 @@ class OpenOrders {
   [[nodiscard]] PassingOrders stuck(const Prediction& prediction);
 
  private:
-  [[nodiscard]] std::optional<std::size_t> index_of(JobId job) const;
+  [[nodiscard]] std::optional<std::size_t> index_of(StepId step) const;
   void add(const PairRegions& pair);
   void add_decided(const Precedence& precedence);
   void add(std::size_t a, std::size_t b, const ConflictRegion& region);
   [[nodiscard]] bool reaches(std::size_t motion, Duration from, std::size_t other) const;
   [[nodiscard]] bool blocks_end(std::size_t motion, Duration to, std::size_t other) const;
   void note_in_the_way(std::size_t motion);
+  [[nodiscard]] std::vector<std::vector<OrderChoice::Member>> joined_at_rests() const;
   void collect_choices();
   [[nodiscard]] bool allowed(const OrderChoice& choice, bool a_first) const;
   [[nodiscard]] const Precedence& precedence(OpenOrder& order, bool a_first, bool at_start);
-  [[nodiscard]] Prediction predicted(const std::vector<MotionAhead>& motions, std::size_t orders);
+  [[nodiscard]] std::vector<Dependency> dependencies(std::size_t orders);
   void report(std::size_t order);
 
   std::vector<CoordinatedMotion> motions_;
   std::size_t first_candidate_;
   MotionChains chains_;
-  std::vector<MotionAhead> ahead_;
+  const HeldAt& held_at_;
   std::vector<OpenOrder> orders_;
   std::size_t decided_ = 0;
   std::vector<OrderChoice> choices_;

@@ -16,10 +16,10 @@ namespace armloom {
 
 // The reason why a motion is not admitted, or why an admitted motion cannot go on.
 struct Blocker {
-  JobId blocked;
-  std::optional<JobId> other;  // the motion that passes first, or that `blocked` cannot pass ...
-  std::optional<ArmId> arm;    // ... or the arm at rest in its path
-  Proximity proximity;         // evidence; body_a belongs to `blocked`
+  StepId blocked;
+  std::optional<StepId> other;  // the motion that passes first, or that `blocked` cannot pass ...
+  std::optional<ArmId> arm;     // ... or the arm at rest in its path
+  Proximity proximity;          // evidence; body_a belongs to `blocked`
   Duration own_time;
   Duration other_time;
 };
@@ -28,6 +28,7 @@ struct Blocker {
 struct OrderQuestion {
   const std::vector<CoordinatedMotion>& admitted;
   const std::vector<Precedence>& precedences;  // between the admitted motions
+  const HeldAt& held_at;                       // of the admitted motions
   const std::vector<CoordinatedMotion>& candidates;
   const std::vector<PairRegions>& regions;
   const std::vector<Duration>& work_behind;  // by ArmId: duration of the jobs in neither list

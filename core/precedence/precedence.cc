@@ -18,7 +18,7 @@ ConflictRegion turned(ConflictRegion region) {
 
 }  // namespace
 
-Precedence::Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
+Precedence::Precedence(StepId a, StepId b, const ConflictRegion& region, bool a_first,
                        bool waits_at_start, double pace_ratio)
     : first_(a_first ? a : b),
       second_(a_first ? b : a),

@@ -28,11 +28,11 @@ class Precedence {
   // leaves its start only when it can pass without a stop, if both motions then keep their pace.
   // `pace_ratio`: pace of the second motion / pace of the first (Outlook::pace). It affects only
   // when the second motion leaves its start.
-  Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
+  Precedence(StepId a, StepId b, const ConflictRegion& region, bool a_first,
              bool waits_at_start = false, double pace_ratio = 1.0);
 
-  [[nodiscard]] JobId first() const { return first_; }
-  [[nodiscard]] JobId second() const { return second_; }
+  [[nodiscard]] StepId first() const { return first_; }
+  [[nodiscard]] StepId second() const { return second_; }
   [[nodiscard]] bool waits_at_start() const { return waits_at_start_; }
   // Returns the region with `first` as A: times with suffix _a, and body_a of the evidence, belong
   // to `first`.
@@ -50,8 +50,8 @@ class Precedence {
   [[nodiscard]] std::optional<Duration> limit(Duration progress_of_first) const;
 
  private:
-  JobId first_;
-  JobId second_;
+  StepId first_;
+  StepId second_;
   bool waits_at_start_;
   ConflictRegion region_;
   std::vector<Step> steps_;

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/precedence/motion_chains.h"
-
 namespace armloom {
 namespace {
 
@@ -39,13 +37,13 @@ std::vector<ArmId> follows_on(const std::vector<CoordinatedMotion>& motions,
 
 }  // namespace
 
-const CoordinatedMotion* PrecedenceGraph::find(JobId job) const {
-  const auto found = std::ranges::find(motions_, job, &CoordinatedMotion::job);
+const CoordinatedMotion* PrecedenceGraph::find(StepId step) const {
+  const auto found = std::ranges::find(motions_, step, &CoordinatedMotion::step);
   return found == motions_.end() ? nullptr : &*found;
 }
 
-CoordinatedMotion* PrecedenceGraph::motion(JobId job) {
-  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(job));
+CoordinatedMotion* PrecedenceGraph::motion(StepId step) {
+  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(step));
 }
 
 void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
@@ -53,7 +51,7 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   for (const CoordinatedMotion& candidate : candidates) {
     // Its regions say from now on what its arms are in the way of; but for motions of its own arms.
     for (Blockade& blockade : blockades_) {
-      if (!share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);
+      if (!share_an_arm(*find(blockade.step), candidate)) blockade.leave(candidate.arms);
     }
     std::erase_if(blockades_, [](const Blockade& blockade) { return blockade.arms.empty(); });
     motions_.push_back(candidate);
@@ -62,11 +60,11 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   std::erase_if(precedences_, [this](const Precedence& precedence) {
     return !precedence.limit(find(precedence.first())->progress);
   });
-  tell_holds();
+  renew_held_at();
 }
 
-void PrecedenceGraph::progress(JobId job, Duration progress) {
-  CoordinatedMotion* found = motion(job);
+void PrecedenceGraph::progress(StepId step, Duration progress) {
+  CoordinatedMotion* found = motion(step);
   if (found == nullptr) return;
   found->progress = std::max(found->progress, progress);
   found->authority = std::max(found->authority, found->progress);
@@ -86,51 +84,51 @@ bool PrecedenceGraph::waits_for_own_arm(std::size_t index) const {
   return false;
 }
 
-Duration PrecedenceGraph::limit(JobId job) const {
-  const CoordinatedMotion* found = find(job);
+Duration PrecedenceGraph::limit(StepId step) const {
+  const CoordinatedMotion* found = find(step);
   if (found == nullptr) return Duration{};
   if (waits_for_own_arm(static_cast<std::size_t>(found - motions_.data()))) return Duration{};
   Duration limit = found->duration;
   for (const Precedence& precedence : precedences_) {
-    if (precedence.second() != job) continue;
+    if (precedence.second() != step) continue;
     const auto held = precedence.limit(find(precedence.first())->progress);
     if (held) limit = std::min(limit, *held);
   }
   for (const Blockade& blockade : blockades_) {
-    if (blockade.job == job && found->progress < blockade.until) {
+    if (blockade.step == step && found->progress < blockade.until) {
       limit = std::min(limit, blockade.limit);
     }
   }
   return limit;
 }
 
-std::optional<Blocker> PrecedenceGraph::held_back(JobId job) const {
-  const CoordinatedMotion* found = find(job);
+std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
+  const CoordinatedMotion* found = find(step);
   if (found == nullptr) return std::nullopt;
-  const Duration at = limit(job);
+  const Duration at = limit(step);
   if (at >= found->duration) return std::nullopt;
   for (const Blockade& blockade : blockades_) {
-    if (blockade.job == job && blockade.limit == at && found->progress < blockade.until) {
+    if (blockade.step == step && blockade.limit == at && found->progress < blockade.until) {
       return blockade.evidence;
     }
   }
   for (const Precedence& precedence : precedences_) {
-    if (precedence.second() != job) continue;
+    if (precedence.second() != step) continue;
     if (precedence.limit(find(precedence.first())->progress) != at) continue;
     return blocker_of(precedence);
   }
   return std::nullopt;
 }
 
-std::optional<Blocker> PrecedenceGraph::rests_ahead(JobId job) const {
-  const CoordinatedMotion* found = find(job);
+std::optional<Blocker> PrecedenceGraph::rests_ahead(StepId step) const {
+  const CoordinatedMotion* found = find(step);
   const Blockade* blockade = found != nullptr ? nearest_blockade(*found) : nullptr;
   return blockade != nullptr ? std::optional(blockade->evidence) : std::nullopt;
 }
 
 std::vector<Dependency> PrecedenceGraph::dependencies() const {
-  const auto index = [this](JobId job) {
-    return static_cast<std::size_t>(find(job) - motions_.data());
+  const auto index = [this](StepId step) {
+    return static_cast<std::size_t>(find(step) - motions_.data());
   };
   std::vector<Dependency> dependencies;
   for (const Precedence& precedence : precedences_) {
@@ -139,55 +137,51 @@ std::vector<Dependency> PrecedenceGraph::dependencies() const {
   return dependencies;
 }
 
-bool PrecedenceGraph::is_held_by(JobId job, const std::vector<ArmId>& arms) const {
+bool PrecedenceGraph::is_held_by(StepId step, const std::vector<ArmId>& arms) const {
   return std::ranges::any_of(blockades_, [&](const Blockade& blockade) {
-    return blockade.job == job && std::ranges::any_of(blockade.arms, [&](ArmId arm) {
+    return blockade.step == step && std::ranges::any_of(blockade.arms, [&](ArmId arm) {
              return std::ranges::find(arms, arm) != arms.end();
            });
   });
 }
 
 bool PrecedenceGraph::is_acyclic() const {
-  const MotionChains chains(motions_);
-  std::vector<MotionAhead> ahead;
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    ahead.push_back({motions_[m].progress, motions_[m].duration, chains.before(m)});
-  }
-  return predict(ahead, dependencies()).stuck.empty();
+  return predict(motions_, MotionChains(motions_), dependencies()).stuck.empty();
 }
 
-void PrecedenceGraph::granted(JobId job, Duration authority) {
-  CoordinatedMotion* found = motion(job);
+void PrecedenceGraph::granted(StepId step, Duration authority) {
+  CoordinatedMotion* found = motion(step);
   if (found == nullptr) return;
-  if (authority > limit(job)) {
-    throw std::logic_error("job " + std::to_string(job.value()) + ": authority beyond its limit");
+  if (authority > limit(step)) {
+    throw std::logic_error("job " + std::to_string(step.job.value()) +
+                           ": authority beyond its limit");
   }
   found->authority = std::max(found->authority, authority);
 }
 
-void PrecedenceGraph::set_outlook(JobId job, const Outlook& outlook) {
-  motion(job)->outlook = outlook;
+void PrecedenceGraph::set_outlook(StepId step, const Outlook& outlook) {
+  motion(step)->outlook = outlook;
 }
 
-void PrecedenceGraph::set_priority(JobId job, int priority) { motion(job)->priority = priority; }
+void PrecedenceGraph::set_priority(StepId step, int priority) { motion(step)->priority = priority; }
 
-void PrecedenceGraph::finish(JobId job) {
-  const CoordinatedMotion* found = find(job);
+void PrecedenceGraph::finish(StepId step) {
+  const CoordinatedMotion* found = find(step);
   if (found == nullptr) return;
   const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
     return &motion > found && share_an_arm(motion, *found);
   });
   if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});
   for (Blockade& blockade : blockades_) {
-    if (blockade.goal_of == job) blockade.goal_of.reset();  // there they are
+    if (blockade.goal_of == step) blockade.goal_of.reset();  // there they are
   }
-  erase(job);
+  erase(step);
 }
 
-void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
-  const CoordinatedMotion* found = find(job);
+void PrecedenceGraph::abandon(StepId step, Duration rests_at, Duration farthest) {
+  const CoordinatedMotion* found = find(step);
   if (found == nullptr) return;
-  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.goal_of == job; });
+  std::erase_if(blockades_, [step](const Blockade& blockade) { return blockade.goal_of == step; });
   // Who was to pass after it has left the goal of the one before it would wait in vain. Not who
   // passes before that one comes there.
   std::vector<ArmId> stand = found->arms;
@@ -200,7 +194,7 @@ void PrecedenceGraph::abandon(JobId job, Duration rests_at, Duration farthest) {
     block_others(*found, {arms, Duration{}, Duration{}, &before});
   }
   if (!stand.empty()) block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});
-  erase(job);
+  erase(step);
 }
 
 // Whether it rests there now or will.
@@ -208,9 +202,9 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
   const auto [arms, at, farthest, brought_by] = rest;
   const bool is_there = motion.progress >= at;
   for (const Precedence& precedence : precedences_) {
-    const bool first = precedence.first() == motion.job;
-    if (!first && (precedence.second() != motion.job || !is_there)) continue;
-    const JobId other = first ? precedence.second() : precedence.first();
+    const bool first = precedence.first() == motion.step;
+    if (!first && (precedence.second() != motion.step || !is_there)) continue;
+    const StepId other = first ? precedence.second() : precedence.first();
     if (brought_by != nullptr && !share_an_arm(*brought_by, *find(other))) continue;
     const ConflictRegion& region = precedence.region();
     const Duration passed = find(other)->progress;
@@ -240,7 +234,7 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
         const auto named = evidence.proximity.arm_b;
         if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
         const CoordinatedMotion* brings = is_there ? brought_by : &motion;
-        const auto goal_of = brings != nullptr ? std::optional(brings->job) : std::nullopt;
+        const auto goal_of = brings != nullptr ? std::optional(brings->step) : std::nullopt;
         blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
       }
       blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
@@ -250,29 +244,30 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
   }
 }
 
-void PrecedenceGraph::erase(JobId job) {
-  std::erase_if(precedences_, [job](const Precedence& precedence) {
-    return precedence.first() == job || precedence.second() == job;
+void PrecedenceGraph::erase(StepId step) {
+  std::erase_if(precedences_, [step](const Precedence& precedence) {
+    return precedence.first() == step || precedence.second() == step;
   });
-  std::erase_if(blockades_, [job](const Blockade& blockade) { return blockade.job == job; });
-  std::erase_if(motions_, [job](const CoordinatedMotion& motion) { return motion.job == job; });
-  tell_holds();
+  std::erase_if(blockades_, [step](const Blockade& blockade) { return blockade.step == step; });
+  std::erase_if(motions_, [step](const CoordinatedMotion& motion) { return motion.step == step; });
+  renew_held_at();
 }
 
 const PrecedenceGraph::Blockade* PrecedenceGraph::nearest_blockade(
     const CoordinatedMotion& motion) const {
   const Blockade* nearest = nullptr;
   for (const Blockade& blockade : blockades_) {
-    if (blockade.job != motion.job || motion.progress >= blockade.until) continue;
+    if (blockade.step != motion.step || motion.progress >= blockade.until) continue;
     if (nearest == nullptr || blockade.limit < nearest->limit) nearest = &blockade;
   }
   return nearest;
 }
 
-void PrecedenceGraph::tell_holds() {
-  for (CoordinatedMotion& motion : motions_) {
+void PrecedenceGraph::renew_held_at() {
+  held_at_.clear();
+  for (const CoordinatedMotion& motion : motions_) {
     const Blockade* nearest = nearest_blockade(motion);
-    motion.held_at = nearest != nullptr ? std::optional(nearest->limit) : std::nullopt;
+    held_at_.push_back(nearest != nullptr ? std::optional(nearest->limit) : std::nullopt);
   }
 }
 

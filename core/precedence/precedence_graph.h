@@ -17,10 +17,10 @@ class PrecedenceGraph {
 
   [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
   [[nodiscard]] const std::vector<Precedence>& precedences() const { return precedences_; }
-  [[nodiscard]] const CoordinatedMotion* find(JobId job) const;
-  [[nodiscard]] bool holds(JobId job) const { return find(job) != nullptr; }
-  // Precondition: holds(job).
-  [[nodiscard]] Duration horizon(JobId job) const { return find(job)->horizon; }
+  [[nodiscard]] const CoordinatedMotion* find(StepId step) const;
+  [[nodiscard]] bool holds(StepId step) const { return find(step) != nullptr; }
+  // Precondition: holds(step).
+  [[nodiscard]] Duration horizon(StepId step) const { return find(step)->horizon; }
 
   // Sets the duration of the jobs that are not admitted, by ArmId. This affects only the choice of
   // orders.
@@ -30,55 +30,57 @@ class PrecedenceGraph {
   // to this graph.
   [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
                                        const std::vector<PairRegions>& regions) const {
-    return {motions_, precedences_, candidates, regions, work_behind_};
+    return {motions_, precedences_, held_at_, candidates, regions, work_behind_};
   }
   void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
 
   // Sets the measured progress; never decreases.
-  void progress(JobId job, Duration progress);
+  void progress(StepId step, Duration progress);
   // Returns the progress up to which the motion may go now, at most its duration. Zero while
   // another motion of its arms precedes it.
-  [[nodiscard]] Duration limit(JobId job) const;
+  [[nodiscard]] Duration limit(StepId step) const;
   // Returns what holds the motion at its limit; nullopt if it may go to its end, or if it only
   // waits for an earlier motion of its own arm.
-  [[nodiscard]] std::optional<Blocker> held_back(JobId job) const;
-  // Returns the arm at rest that holds the motion at its held_at; nullopt if there is none. No
-  // admitted motion will move that arm.
-  [[nodiscard]] std::optional<Blocker> rests_ahead(JobId job) const;
+  [[nodiscard]] std::optional<Blocker> held_back(StepId step) const;
+  // Returns by motion where an arm at rest in its path holds it (the limit of rests_ahead()).
+  [[nodiscard]] const HeldAt& held_at() const { return held_at_; }
+  // Returns the arm at rest that holds the motion; nullopt if there is none. No admitted motion
+  // will move that arm.
+  [[nodiscard]] std::optional<Blocker> rests_ahead(StepId step) const;
   // Returns the precedences, with motions as indices into motions(), for predict().
   [[nodiscard]] std::vector<Dependency> dependencies() const;
   // Returns true if one of the arms rests, or will rest, in the motion's path.
-  [[nodiscard]] bool is_held_by(JobId job, const std::vector<ArmId>& arms) const;
+  [[nodiscard]] bool is_held_by(StepId step, const std::vector<ArmId>& arms) const;
   // Returns true if the orders let all motions reach their ends. Ignores arms at rest in their
   // paths.
   [[nodiscard]] bool is_acyclic() const;
   // Records the authority sent to the arms. Throws std::logic_error if it exceeds limit().
-  void granted(JobId job, Duration authority);
-  // Sets the knowledge about a motion. Precondition: holds(job).
-  void set_outlook(JobId job, const Outlook& outlook);
-  void set_priority(JobId job, int priority);  // precondition: holds(job)
+  void granted(StepId step, Duration authority);
+  // Sets the knowledge about a motion. Precondition: holds(step).
+  void set_outlook(StepId step, const Outlook& outlook);
+  void set_priority(StepId step, int priority);  // precondition: holds(step)
 
   // Remove a motion that has ended: at its goal (finish), or at another progress `rests_at`
   // (abandon). Motions that would pass an arm that now rests in their path stop before it until
   // that arm moves again. The arms of one motion may rest at different progress, from `rests_at` up
   // to `farthest`.
-  void finish(JobId job);
-  void abandon(JobId job, Duration rests_at, Duration farthest = {});
+  void finish(StepId step);
+  void abandon(StepId step, Duration rests_at, Duration farthest = {});
 
  private:
-  // Arms that came to rest, or will, in the path of the admitted motion `job`. The blockade ends
+  // Arms that came to rest, or will, in the path of the admitted motion `step`. The blockade ends
   // when all of them have left.
   struct Blockade {
     std::vector<ArmId> arms;
-    std::optional<JobId> goal_of;  // if set: the arms will rest there when this motion has ended
-    JobId job;
+    std::optional<StepId> goal_of;  // if set: the arms will rest there when this motion has ended
+    StepId step;
     Duration limit;
-    Duration until;    // progress at which `job` has passed the arms
+    Duration until;    // progress at which `step` has passed the arms
     Blocker evidence;  // names one of these arms
 
     void leave(const std::vector<ArmId>& left);
   };
-  [[nodiscard]] CoordinatedMotion* motion(JobId job);
+  [[nodiscard]] CoordinatedMotion* motion(StepId step);
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
   struct Rest {
     std::vector<ArmId> arms;
@@ -90,12 +92,13 @@ class PrecedenceGraph {
   };
   [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
   void block_others(const CoordinatedMotion& motion, const Rest& rest);
-  void erase(JobId job);
-  void tell_holds();
+  void erase(StepId step);
+  void renew_held_at();
 
   std::vector<CoordinatedMotion> motions_;  // of one arm: in running order
   std::vector<Precedence> precedences_;
   std::vector<Blockade> blockades_;
+  HeldAt held_at_;
   std::vector<Duration> work_behind_;
 };
 

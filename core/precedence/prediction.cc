@@ -30,12 +30,15 @@ Duration time_at(std::span<const Stage> stages, Duration progress, double pace) 
 // motion stands side by side in one array: nothing is allocated by motion.
 class Race {
  public:
-  Race(const std::vector<MotionAhead>& motions, const std::vector<Dependency>& dependencies)
-      : motions_(motions), runners_(motions.size()) {
-    place_gates(dependencies);
+  Race(std::span<const CoordinatedMotion> motions, const MotionChains& chains,
+       const std::vector<Dependency>& dependencies, const HeldAt& held_at)
+      : motions_(motions), chains_(chains), runners_(motions.size()) {
+    place_gates(dependencies, held_at);
     prediction_.first_.resize(motions.size());
     prediction_.count_.resize(motions.size());
-    for (const MotionAhead& motion : motions) prediction_.pace_.push_back(motion.pace);
+    for (const CoordinatedMotion& motion : motions) {
+      prediction_.pace_.push_back(motion.outlook.pace);
+    }
     std::size_t stages = 0;
     for (std::size_t m = 0; m < motions.size(); ++m) {
       prediction_.first_[m] = stages;
@@ -70,7 +73,7 @@ class Race {
   };
 
   // By motion, and of each by limit.
-  void place_gates(const std::vector<Dependency>& dependencies) {
+  void place_gates(const std::vector<Dependency>& dependencies, const HeldAt& held_at) {
     const auto each_gate = [&](auto&& take) {
       for (const Dependency& dependency : dependencies) {
         for (const Precedence::Step& step : dependency.precedence->steps()) {
@@ -78,8 +81,8 @@ class Race {
           take(dependency.second, Gate{step.limit, dependency.first, step.until});
         }
       }
-      for (std::size_t m = 0; m < motions_.size(); ++m) {
-        if (const auto& at = motions_[m].held_at) take(m, Gate{*at, kNobody, {}});
+      for (std::size_t m = 0; m < held_at.size(); ++m) {
+        if (held_at[m]) take(m, Gate{*held_at[m], kNobody, {}});
       }
     };
     each_gate([this](std::size_t m, const Gate&) { ++runners_[m].gates_end; });
@@ -106,7 +109,7 @@ class Race {
   }
 
   [[nodiscard]] Duration time_for(std::size_t m, Duration way) const {
-    return paced(way, motions_[m].pace);
+    return paced(way, motions_[m].outlook.pace);
   }
 
   void add_stage(std::size_t m, Stage stage) {
@@ -131,14 +134,14 @@ class Race {
     const bool known = runner.ended || (runner.next_gate < runner.gates_end &&
                                         progress <= gates_[runner.next_gate].limit);
     if (!known) return std::nullopt;
-    return time_at(stages, std::min(progress, motions_[m].duration), motions_[m].pace);
+    return time_at(stages, std::min(progress, motions_[m].duration), motions_[m].outlook.pace);
   }
 
   // Whether it may leave its start.
   bool sets_out(std::size_t m) {
-    const MotionAhead& motion = motions_[m];
+    const CoordinatedMotion& motion = motions_[m];
     Duration start{};
-    for (const std::size_t before : motion.after) {
+    for (const std::size_t before : chains_.before(m)) {
       if (!runners_[before].ended) {
         runners_[m].waits_for = before;
         return false;
@@ -146,7 +149,8 @@ class Race {
       start = std::max(start, prediction_.stages(before).back().time);
     }
     add_stage(m, {motion.progress, start});
-    if (motion.stands_for > Duration{}) add_stage(m, {motion.progress, start + motion.stands_for});
+    const Duration stands = motion.outlook.stands_for;
+    if (stands > Duration{}) add_stage(m, {motion.progress, start + stands});
     return true;
   }
 
@@ -194,7 +198,8 @@ class Race {
     return way;
   }
 
-  const std::vector<MotionAhead>& motions_;
+  std::span<const CoordinatedMotion> motions_;
+  const MotionChains& chains_;
   std::vector<Runner> runners_;
   std::vector<Gate> gates_;
   Prediction prediction_;
@@ -216,9 +221,9 @@ std::optional<Duration> Prediction::goes_beyond(std::size_t motion, Duration pro
   return from.time + time_for(motion, progress - from.progress);
 }
 
-Prediction predict(const std::vector<MotionAhead>& motions,
-                   const std::vector<Dependency>& dependencies) {
-  return Race(motions, dependencies).run();
+Prediction predict(std::span<const CoordinatedMotion> motions, const MotionChains& chains,
+                   const std::vector<Dependency>& dependencies, const HeldAt& held_at) {
+  return Race(motions, chains, dependencies, held_at).run();
 }
 
 }  // namespace armloom

@@ -6,20 +6,11 @@
 #include <vector>
 
 #include "core/base/time.h"
+#include "core/precedence/coordinated_motion.h"
+#include "core/precedence/motion_chains.h"
 #include "core/precedence/precedence.h"
 
 namespace armloom {
-
-// A motion, as input of predict().
-struct MotionAhead {
-  Duration progress;  // its present progress
-  Duration duration;  // of its trajectory
-  // Indices of motions of the same arms that must end first.
-  std::span<const std::size_t> after = {};
-  std::optional<Duration> held_at = {};  // the motion does not go beyond this progress
-  Duration stands_for{};                 // the motion rests for this long before it goes on
-  double pace = 1.0;                     // cell time per trajectory time
-};
 
 // A precedence as input of predict(): `second` may pass when `first` has progressed far enough.
 // Both are indices of motions.
@@ -54,7 +45,7 @@ class Prediction {
   std::vector<Duration> begins = {};    // when each motion leaves its start; zero if it has begun
   std::vector<Duration> ends = {};      // when each motion ends; valid only if it is not in `stuck`
   std::vector<std::size_t> stuck = {};  // ascending: motions that never end
-  // If any is stuck: motions that wait for each other, or one motion at its held_at.
+  // If any is stuck: motions that wait for each other, or one motion that is held.
   std::vector<std::size_t> ring = {};
 
  private:
@@ -68,10 +59,17 @@ class Prediction {
 // Time added by a stop on the path and the start after it.
 inline constexpr Duration kPauseLoss = std::chrono::milliseconds(300);
 
-// Predicts the motions from the precedences and the running orders of the arms. These form a graph
-// over progress; unless a held_at stops a motion, it is acyclic exactly if `stuck` is empty. Takes
-// time linear in the steps of all precedences, except for sorting them.
-[[nodiscard]] Prediction predict(const std::vector<MotionAhead>& motions,
-                                 const std::vector<Dependency>& dependencies);
+// By motion: the progress beyond which it does not go, because an arm rests in its path. Empty:
+// none is held.
+using HeldAt = std::vector<std::optional<Duration>>;
+
+// Predicts the motions from the precedences and the running orders of the arms (`chains`, which may
+// contain more motions behind these). These form a graph over progress; unless a motion is held, it
+// is acyclic exactly if `stuck` is empty. Takes time linear in the steps of all precedences, except
+// for sorting them.
+[[nodiscard]] Prediction predict(std::span<const CoordinatedMotion> motions,
+                                 const MotionChains& chains,
+                                 const std::vector<Dependency>& dependencies,
+                                 const HeldAt& held_at = {});
 
 }  // namespace armloom

@@ -32,14 +32,14 @@ constexpr std::size_t kPutOffMax = 32;
 
 // Returns the motion that has to be checked again and whose last check is the oldest; nullopt if
 // none has.
-std::optional<JobId> next_recheck(const State& state) {
-  std::optional<JobId> next;
+std::optional<StepId> next_recheck(const State& state) {
+  std::optional<StepId> next;
   for (JobId id : state.jobs.past_queue()) {
     const Record& record = state.jobs.at(id);
     if (!record.job.has_authority() || !record.asking.is_in_question) continue;
     const bool is_older =
         !next || record.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
-    if (is_older) next = id;
+    if (is_older) next = record.job.step();
   }
   return next;
 }
@@ -50,8 +50,8 @@ void note_free(State& state, Record& record) {
 }
 
 // Of what waits, if these go.
-SafeSequence::Outlook outlook_with(State& state, const std::vector<JobId>& jobs) {
-  return state.lanes.after(jobs, state.jobs, state.arms);
+SafeSequence::Outlook outlook_with(State& state, const std::vector<StepId>& steps) {
+  return state.lanes.after(steps, state.jobs, state.arms);
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
@@ -61,7 +61,7 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm == nullptr) continue;
     const ConflictRegion& region = pair.regions.front();
-    waits.push_back(wait_for(Blocker{record.job.id, std::nullopt, *arm, region.proximity,
+    waits.push_back(wait_for(Blocker{record.job.step(), std::nullopt, *arm, region.proximity,
                                      region.time_a, region.time_b}));
   }
   if (!waits.empty()) return put_off(state, record, std::move(waits));
@@ -74,18 +74,18 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
 
 // Counts, for the first job of each arm, the admitted jobs that overtake it after it has waited for
 // `aging_s`.
-void note_overtaken(State& state, const std::vector<JobId>& admitted) {
-  std::set<JobId> firsts;  // a job of several arms is the first of several queues
+void note_overtaken(State& state, const std::vector<StepId>& admitted) {
+  std::set<StepId> firsts;  // a step of several arms is the first of several queues
   for (const auto& queue : state.jobs.queues()) {
     if (!queue.empty()) firsts.insert(queue.front());
   }
-  for (const JobId first : firsts) {
+  for (const StepId first : firsts) {
     Record& record = state.jobs.at(first);
     const bool waits_long = record.job.in<Queued>() != nullptr && state.has_aged(record);
     if (!waits_long) continue;
-    const auto overtaking = std::ranges::count_if(admitted, [&](JobId id) {
-      const Record& other = state.jobs.at(id);
-      return id != first && !other.job.system_job && record.turn < other.turn;
+    const auto overtaking = std::ranges::count_if(admitted, [&](StepId step) {
+      const Record& other = state.jobs.at(step);
+      return step != first && !other.job.system_job && record.turn < other.turn;
     });
     if (overtaking == 0) continue;
     const std::size_t before = record.job.starvation ? record.job.starvation->overtaken_by : 0;
@@ -95,20 +95,20 @@ void note_overtaken(State& state, const std::vector<JobId>& admitted) {
   }
 }
 
-void admit(State& state, const std::vector<JobId>& jobs, std::vector<CoordinatedMotion> candidates,
-           const PassingOrders& orders) {
-  state.lanes.admitted(jobs);
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const Trajectory& trajectory = *state.jobs.at(jobs[i]).job.trajectory;
+void admit(State& state, const std::vector<StepId>& steps,
+           std::vector<CoordinatedMotion> candidates, const PassingOrders& orders) {
+  state.lanes.admitted(steps);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Trajectory& trajectory = *state.jobs.at(steps[i]).job.trajectory;
     candidates[i].horizon = from_seconds(stopping_reach_s(*state.cell, trajectory)) +
                             state.cell->monitor.reaction +
                             promises_of(*state.cell, trajectory.arms()).free_run();
   }
   state.graph.admit(candidates, orders);
   ++state.version;
-  const std::size_t before = state.graph.motions().size() - jobs.size();
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    Record& record = state.jobs.at(jobs[i]);
+  const std::size_t before = state.graph.motions().size() - steps.size();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    Record& record = state.jobs.at(steps[i]);
     if (record.job.has_open_arm()) state.jobs.decide_arm(record);
     enter(state, record, Admitted{});
     record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
@@ -119,7 +119,7 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
     state.jobs.changed(record);
   }
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
-  note_overtaken(state, jobs);
+  note_overtaken(state, steps);
 }
 
 }  // namespace
@@ -134,7 +134,8 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
-    ask_about(state, *job, question_by_itself(state, state.jobs.at(*job).job), Purpose::itself);
+    Question question = question_by_itself(state, state.jobs.at(*job).job);
+    ask_about(state, only_step(*job), std::move(question), Purpose::itself);
     return put_off;
   }
   std::optional<JobId> turn;
@@ -157,14 +158,14 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
       continue;
     }
     const bool is_choice = choosing_.begin(state, *turn);
-    const JobId job = choosing_.job();
-    auto outlook = outlook_with(state, {job});
+    const StepId step = only_step(choosing_.job());
+    auto outlook = outlook_with(state, {step});
     if (!outlook.first) {
-      ask(state, {job}, std::move(outlook), is_choice ? Purpose::option : Purpose::start);
+      ask(state, {step}, std::move(outlook), is_choice ? Purpose::option : Purpose::start);
       open_->is_only_option = !is_choice;
       return put_off;
     }
-    wait_in_turn(state, state.jobs.at(job), outlook);
+    wait_in_turn(state, state.jobs.at(step), outlook);
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
@@ -172,26 +173,27 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   return put_off;
 }
 
-void Admission::ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
+void Admission::ask(State& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
                     Purpose purpose) {
-  Question question = question_now(state, jobs);
-  question.effort = state.jobs.at(jobs.front()).asking.effort;
+  Question question = question_now(state, steps);
+  question.effort = state.jobs.at(steps.front()).asking.effort;
   std::vector<Passage> unknown = std::move(outlook.unknown);
   std::ranges::move(outlook.ahead, std::back_inserter(unknown));
   add_passages(question, unknown, state);
-  open_ = OpenQuestion{state.version, std::move(jobs), purpose, {}, std::move(unknown)};
+  open_ = OpenQuestion{state.version, std::move(steps), purpose, {}, std::move(unknown)};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
-void Admission::ask_about(State& state, JobId job, Question question, Purpose purpose) {
-  open_ = OpenQuestion{state.version, {job}, purpose};
+void Admission::ask_about(State& state, StepId step, Question question, Purpose purpose) {
+  open_ = OpenQuestion{state.version, {step}, purpose};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
 void Admission::ask_yield(State& state, YieldTrial move) {
   if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
-  open_ = OpenQuestion{state.version, {move.blocked_job}, Purpose::yield, std::move(move)};
+  open_ =
+      OpenQuestion{state.version, {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
@@ -208,7 +210,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
-      Record& record = state.jobs.at(question.jobs.front());
+      Record& record = state.jobs.at(question.steps.front());
       record.approaches.feasibility = Approaches::Feasibility::given;
       if (input.verdict.kind == Verdict::Kind::conflict) {
         (void)fails_by_itself(state, record, input.verdict);
@@ -216,7 +218,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
       return;
     }
     case Purpose::recheck: {
-      Record& record = state.jobs.at(question.jobs.front());
+      Record& record = state.jobs.at(question.steps.front());
       note_free(state, record);
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
       return;
@@ -225,8 +227,9 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
       return answer_option(state, input.verdict);
     case Purpose::start:
       // What could take the turn too has come meanwhile: all of them are asked about.
-      if (question.is_only_option && options_of(state, question.jobs.front()).size() > 1) return;
-      return answer_start(state, input.verdict, question.jobs);
+      if (question.is_only_option && options_of(state, question.steps.front().job).size() > 1)
+        return;
+      return answer_start(state, input.verdict, question.steps);
   }
 }
 
@@ -247,76 +250,77 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
 void Admission::answer_option(State& state, Verdict verdict) {
   if (!choosing_.stands(state)) return;
   if (choosing_.rate(state, std::move(verdict))) {
-    const std::vector<JobId> next{choosing_.job()};
+    const std::vector<StepId> next{only_step(choosing_.job())};
     return ask(state, next, outlook_with(state, next), Purpose::option);
   }
   const auto best = choosing_.decide(state);
-  if (best) return answer_start(state, *best, {choosing_.job()});
+  if (best) return answer_start(state, *best, {only_step(choosing_.job())});
   Record& record = state.jobs.at(choosing_.job());
-  wait_behind(state, record, *state.jobs.queues().before(record.job, record.leg.arms.front()));
+  wait_behind(state, record, state.jobs.queues().before(record.job, record.leg.arms.front())->job);
 }
 
-void Admission::answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
-  Record& first = state.jobs.at(jobs.front());
+void Admission::answer_start(State& state, const Verdict& verdict,
+                             const std::vector<StepId>& steps) {
+  Record& first = state.jobs.at(steps.front());
   if (verdict.kind == Verdict::Kind::free) {
-    if (state.graph.holds(first.job.id)) return go_on(state, first, verdict);
-    return decide(state, verdict, jobs);
+    if (state.graph.holds(first.job.step())) return go_on(state, first, verdict);
+    return decide(state, verdict, steps);
   }
   if (is_asked_again(first, verdict)) return;
-  if (jobs.size() == 1) return refuse(state, first, verdict);
-  if (tries_together(state, jobs, false)) return;
+  if (steps.size() == 1) return refuse(state, first, verdict);
+  if (tries_together(state, steps, false)) return;
   put_off(state, first, first.job.judgement().found);  // one that was to help it cannot go
 }
 
-void Admission::decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
-  Record& first = state.jobs.at(jobs.front());
-  if (!follow_each_other(state, jobs)) {
+void Admission::decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps) {
+  Record& first = state.jobs.at(steps.front());
+  if (!follow_each_other(state, steps)) {
     // Another arm was chosen for a job before one of these, or its plan is old.
-    if (jobs.size() > 1 && !tries_together(state, jobs, false)) {
+    if (steps.size() > 1 && !tries_together(state, steps, false)) {
       put_off(state, first, first.job.judgement().found);
     }
     return;
   }
-  prepare_choice(state, jobs);
+  prepare_choice(state, steps);
   std::vector<CoordinatedMotion> candidates;
-  for (JobId id : jobs) candidates.push_back(as_candidate(state, state.jobs.at(id).job));
+  for (StepId step : steps) candidates.push_back(as_candidate(state, state.jobs.at(step).job));
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
   if (!can_go && is_asked_again(first, verdict)) return;  // what stands against it is not known yet
-  if (can_go && take_arms_that_remain(state, jobs)) return;
-  if (jobs.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
-  if (tries_together(state, jobs, can_go)) return;
+  if (can_go && take_arms_that_remain(state, steps)) return;
+  if (steps.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
+  if (tries_together(state, steps, can_go)) return;
   if (can_go) {
-    if (leaves_a_sequence(state, jobs)) {
-      admit(state, jobs, std::move(candidates), orders);
+    if (leaves_a_sequence(state, steps)) {
+      admit(state, steps, std::move(candidates), orders);
     } else if (!open_) {
-      (void)tries_together(state, jobs, false);
+      (void)tries_together(state, steps, false);
     }
     return;
   }
   std::vector<Wait> waits;
   for (const Blocker& blocker : orders.blockers) {
-    if (blocker.blocked != first.job.id) continue;
+    if (blocker.blocked != first.job.step()) continue;
     if (blocker.arm) {
-      state.lanes.learn_in_the_way(first.job.id, *blocker.arm,
+      state.lanes.learn_in_the_way(first.job.step(), *blocker.arm,
                                    {blocker.proximity, blocker.own_time}, state.jobs, state.arms);
     }
     waits.push_back(wait_for(blocker));
   }
-  if (jobs.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
-  std::vector<JobId> group = with_next_jobs(state, jobs, orders.in_the_way);
-  if (group.size() > jobs.size()) return ask(state, group, outlook_with(state, group));
+  if (steps.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
+  std::vector<StepId> group = with_next_jobs(state, steps, orders.in_the_way);
+  if (group.size() > steps.size()) return ask(state, group, outlook_with(state, group));
   put_off(state, first, first.job.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
-bool Admission::leaves_a_sequence(State& state, const std::vector<JobId>& jobs) {
-  auto outlook = outlook_with(state, jobs);
-  Record& first = state.jobs.at(jobs.front());
+bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps) {
+  auto outlook = outlook_with(state, steps);
+  Record& first = state.jobs.at(steps.front());
   if (!outlook.unknown.empty()) {
-    ask(state, jobs, std::move(outlook));
-  } else if (outlook.first && jobs.size() > 1) {
+    ask(state, steps, std::move(outlook));
+  } else if (outlook.first && steps.size() > 1) {
     put_off(state, first, first.job.judgement().found);  // not so
   } else if (outlook.first) {
     wait_in_turn(state, first, outlook);
@@ -328,25 +332,25 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<JobId>& jobs) 
 
 // For some of what waits there is no order one by one, whether these go or not: all are tried as
 // one; where that fails too, these go alone. Whether something else is asked now.
-bool Admission::tries_together(State& state, const std::vector<JobId>& jobs, bool can_go) {
+bool Admission::tries_together(State& state, const std::vector<StepId>& steps, bool can_go) {
   if (!state.policy->admits_groups()) return false;
   const bool tried = together_ && together_->version == state.version;
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
-    const std::vector<JobId> alone = std::exchange(together_->alone, {});
+    const std::vector<StepId> alone = std::exchange(together_->alone, {});
     ask(state, alone, outlook_with(state, alone));
     return true;
   }
   if (tried) return false;
-  auto outlook = outlook_with(state, jobs);
+  auto outlook = outlook_with(state, steps);
   if (!outlook.ahead.empty()) {  // others have come meanwhile
-    ask(state, jobs, std::move(outlook));
+    ask(state, steps, std::move(outlook));
     return true;
   }
   if (outlook.all) return false;
-  const std::vector<JobId> all = with_all_that_wait(state, jobs);
-  if (all.size() == jobs.size() || all.size() > kTogetherMax) return false;
-  together_ = Together{state.version, jobs};
+  const std::vector<StepId> all = with_all_that_wait(state, steps);
+  if (all.size() == steps.size() || all.size() > kTogetherMax) return false;
+  together_ = Together{state.version, steps};
   ask(state, all, outlook_with(state, all));
   return true;
 }

@@ -39,29 +39,29 @@ class Admission {
   };
   struct OpenQuestion {
     Version version;
-    std::vector<JobId> jobs;
+    std::vector<StepId> steps;
     Purpose purpose;
     std::optional<YieldTrial> yield = {};
     std::vector<Passage> passages = {};  // Question::passages
     bool is_only_option = false;         // no other option could take the turn
   };
-  // For policies that admit groups: all waiting jobs are tried as one group. If that fails, only
-  // the jobs of `alone` are tried.
+  // For policies that admit groups: all waiting steps are tried as one group. If that fails, only
+  // the steps of `alone` are tried.
   struct Together {
     Version version;
-    std::vector<JobId> alone;
+    std::vector<StepId> alone;
   };
 
-  void ask(State& state, std::vector<JobId> jobs, SafeSequence::Outlook outlook,
+  void ask(State& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
            Purpose purpose = Purpose::start);
-  void ask_about(State& state, JobId job, Question question, Purpose purpose);
+  void ask_about(State& state, StepId step, Question question, Purpose purpose);
   void ask_yield(State& state, YieldTrial move);
   void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
   void answer_option(State& state, Verdict verdict);
-  void answer_start(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
-  void decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs);
-  [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<JobId>& jobs);
-  [[nodiscard]] bool tries_together(State& state, const std::vector<JobId>& jobs, bool can_go);
+  void answer_start(State& state, const Verdict& verdict, const std::vector<StepId>& steps);
+  void decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps);
+  [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<StepId>& steps);
+  [[nodiscard]] bool tries_together(State& state, const std::vector<StepId>& steps, bool can_go);
 
   std::optional<OpenQuestion> open_;
   Choosing choosing_;

@@ -8,7 +8,8 @@ namespace {
 
 void set_priority(State& state, Record& record, int priority) {
   state.jobs.set_priority(record, priority);
-  if (state.graph.holds(record.job.id)) state.graph.set_priority(record.job.id, priority);
+  const StepId step = record.job.step();
+  if (state.graph.holds(step)) state.graph.set_priority(step, priority);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ void explain_pause(State& state, Record& record) {
   if (auto speed = speed_wait(state, record.job)) {
     return state.jobs.set_wait(record, std::move(*speed));
   }
-  const auto held = state.graph.held_back(record.job.id);
+  const auto held = state.graph.held_back(record.job.step());
   if (held) state.jobs.set_wait(record, wait_for(*held));
 }
 
@@ -35,16 +35,16 @@ void dispatch_if_ready(State& state, Record& record) {
   }
   if (auto wait = operator_wait(state, job)) return state.jobs.set_wait(record, *wait);
   if (record.asking.is_in_question) return;
-  const Duration limit = state.graph.limit(job.id);
+  const Duration limit = state.graph.limit(job.step());
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    const auto held = state.graph.held_back(job.id);
+    const auto held = state.graph.held_back(job.step());
     if (held && held->arm && !job.has_started()) return withdraw(state, record, {});
     pause_at_rest(state, record);  // stopped on its way: it waits there until it may go on
     explain_pause(state, record);
     return;
   }
-  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
-  state.graph.granted(job.id, authority);
+  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.step()));
+  state.graph.granted(job.step(), authority);
   if (!job.has_started()) record.off_path = off_path_of(state, record);
   enter(state, record,
         Moving{.overrun_at = overrun_after(state, job),
@@ -53,18 +53,18 @@ void dispatch_if_ready(State& state, Record& record) {
                .goes_from = job.progress});
   job.times.scheduled_at = state.now;
   state.jobs.set_waits(record, {});
-  state.decided.effects.push_back(Dispatch{job.id, state.now, job.progress, authority});
+  state.decided.effects.push_back(Dispatch{job.step(), state.now, job.progress, authority});
 }
 
 void extend_own_authority(State& state, const Record& record) {
   const Job& job = record.job;
   if (job.in<Moving>() == nullptr) return;
-  const Duration limit = state.graph.limit(job.id);
-  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
-  const Duration granted = state.graph.find(job.id)->authority;
+  const Duration limit = state.graph.limit(job.step());
+  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.step()));
+  const Duration granted = state.graph.find(job.step())->authority;
   if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  state.graph.granted(job.id, authority);
-  state.decided.effects.push_back(Grant{job.id, authority});
+  state.graph.granted(job.step(), authority);
+  state.decided.effects.push_back(Grant{job.step(), authority});
 }
 
 void go_on(State& state, Record& record) {
@@ -96,24 +96,24 @@ void dispatch_ready(State& state) {
   }
 }
 
-void extend_authority(State& state, JobId moved) {
+void extend_authority(State& state, StepId moved) {
   extend_own_authority(state, state.jobs.at(moved));
-  std::vector<JobId> behind;
+  std::vector<StepId> behind;
   for (const Precedence& precedence : state.graph.precedences()) {
     if (precedence.first() == moved &&
         std::ranges::find(behind, precedence.second()) == behind.end())
       behind.push_back(precedence.second());
   }
-  for (JobId id : behind) go_on(state, state.jobs.at(id));
+  for (StepId step : behind) go_on(state, state.jobs.at(step));
 }
 
 void see_pauses(State& state, Record& record, Duration progress_before) {
   Job& job = record.job;
   auto* moving = std::get_if<Moving>(&job.phase);
   if (moving == nullptr || !moving->is_under_way) return;
-  const Duration limit = state.graph.limit(job.id);
+  const Duration limit = state.graph.limit(job.step());
   const bool is_held = limit < job.trajectory->duration();
-  if (is_held && job.progress + state.graph.horizon(job.id) >= limit) {
+  if (is_held && job.progress + state.graph.horizon(job.step()) >= limit) {
     moving->overrun_at = overrun_after(state, job);
     moving->moved_at = state.now;
     moving->goes_since = state.now;

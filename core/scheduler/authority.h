@@ -12,7 +12,7 @@ namespace armloom {
 // motions under way.
 void dispatch_ready(State& state);
 // Does the same, but only for the motion that moved and for the motions that pass after it.
-void extend_authority(State& state, JobId moved);
+void extend_authority(State& state, StepId moved);
 // Records that a motion pauses at its limit or continues. Time that it loses there does not count
 // as overrun.
 void see_pauses(State& state, Record& record, Duration progress_before);

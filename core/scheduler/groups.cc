@@ -9,18 +9,18 @@
 namespace armloom {
 namespace {
 
-bool contains(const std::vector<JobId>& group, JobId job) {
-  return std::ranges::find(group, job) != group.end();
+bool contains(const std::vector<StepId>& group, StepId step) {
+  return std::ranges::find(group, step) != group.end();
 }
 
-// Of each arm's jobs that are not admitted or in the group the first ones.
-std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& group) {
+// Returns the jobs of each arm's first steps that are neither admitted nor in the group.
+std::set<JobId> first_of_arms(const State& state, const std::vector<StepId>& group) {
   std::set<JobId> jobs;
   for (const auto& queue : state.jobs.queues()) {
     std::size_t left = kTogetherMax;
-    for (auto id = queue.begin(); id != queue.end() && left > 0; ++id) {
-      if (state.graph.holds(*id) || contains(group, *id)) continue;
-      jobs.insert(*id);
+    for (auto step = queue.begin(); step != queue.end() && left > 0; ++step) {
+      if (state.graph.holds(*step) || contains(group, *step)) continue;
+      jobs.insert(step->job);
       --left;
     }
   }
@@ -31,13 +31,13 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<JobId>& grou
 bool may_follow(const State& state, const Record& record) {
   return record.job.is_waiting() && !record.job.is_unplanned() && record.job.after.empty() &&
          !lets_another_pass(state.jobs, record) && !operator_wait(state, record.job) &&
-         state.lanes.follows_on(record.job.id) && !holds_one_ahead(state, record);
+         state.lanes.follows_on(record.job.step()) && !holds_one_ahead(state, record);
 }
 
 }  // namespace
 
-std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobId>& group) {
-  std::vector<JobId> all = group;
+std::vector<StepId> with_all_that_wait(const State& state, const std::vector<StepId>& group) {
+  std::vector<StepId> all = group;
   std::vector<std::size_t> left(state.cell->arms.size(), kTogetherMax);
   for (JobId id : in_turn(state.jobs, first_of_arms(state, group))) {
     const Record& record = state.jobs.at(id);
@@ -45,7 +45,7 @@ std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobI
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
     bool goes = room && may_follow(state, record);
     if (goes) {
-      all.push_back(id);
+      all.push_back(record.job.step());
       goes = follow_each_other(state, all);
       if (!goes) all.pop_back();
     }
@@ -54,20 +54,20 @@ std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobI
   return all;
 }
 
-bool follow_each_other(const State& state, const std::vector<JobId>& jobs) {
+bool follow_each_other(const State& state, const std::vector<StepId>& steps) {
   std::vector<PlacePtr> stands = state.arms.places();
   const auto comes = [&](const WaitingLeg& leg) {
     for (std::size_t i = 0; i < leg.arms.size(); ++i) stands[leg.arms[i].index()] = leg.to[i];
   };
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    if (!contains(jobs, motion.job)) comes(state.jobs.at(motion.job).leg);
+    if (!contains(steps, motion.step)) comes(state.jobs.at(motion.step).leg);
   }
   const double tolerance = state.cell->execution.start_tolerance_rad;
   const auto is_near = [&](const PlacePtr& begins, const PlacePtr& at) {
     return begins == at || (begins->q - at->q).cwiseAbs().maxCoeff() <= tolerance;
   };
-  return std::ranges::all_of(jobs, [&](JobId id) {
-    const Record& record = state.jobs.at(id);
+  return std::ranges::all_of(steps, [&](StepId step) {
+    const Record& record = state.jobs.at(step);
     const WaitingLeg& leg = record.leg;
     bool follows = true;
     for (std::size_t i = 0; i < leg.arms.size() && !record.job.has_started(); ++i) {
@@ -78,10 +78,10 @@ bool follow_each_other(const State& state, const std::vector<JobId>& jobs) {
   });
 }
 
-std::vector<JobId> with_next_jobs(const State& state, std::vector<JobId> group,
-                                  const std::vector<ArmId>& in_the_way) {
+std::vector<StepId> with_next_jobs(const State& state, std::vector<StepId> group,
+                                   const std::vector<ArmId>& in_the_way) {
   if (!state.policy->admits_groups()) return group;
-  const auto goes = [&](JobId id) { return state.graph.holds(id) || contains(group, id); };
+  const auto goes = [&](StepId step) { return state.graph.holds(step) || contains(group, step); };
   const auto next_of = [&](ArmId arm) {
     const auto& queue = state.jobs.queues()[arm];
     const auto next = std::ranges::find_if_not(queue, goes);

@@ -29,7 +29,7 @@ Motion::Stands stands_now(const State& state, const Job& job) {
 
 Motion motion_now(const State& state, const Record& record) {
   const Job& job = record.job;
-  return Motion{.job = job.id,
+  return Motion{.step = job.step(),
                 .trajectory = job.trajectory,
                 .progress = job.progress,
                 .to_come = !state.jobs.queues().is_first(job),
@@ -67,20 +67,20 @@ double off_path_of(const State& state, const Record& record) {
   return off;
 }
 
-Question question_now(const State& state, const std::vector<JobId>& candidates) {
+Question question_now(const State& state, const std::vector<StepId>& candidates) {
   Question question{.version = state.version,
                     .start_at = state.now,
                     .candidates = {},
                     .others = {},
                     .rest = state.arms.rest(),
                     .method = state.policy->method()};
-  for (JobId id : candidates) {
-    Motion& candidate = question.candidates.emplace_back(motion_now(state, state.jobs.at(id)));
-    if (state.jobs.at(id).job.is_waiting()) candidate.stands = Motion::Stands::goes_on;
+  for (StepId step : candidates) {
+    Motion& candidate = question.candidates.emplace_back(motion_now(state, state.jobs.at(step)));
+    if (state.jobs.at(step).job.is_waiting()) candidate.stands = Motion::Stands::goes_on;
   }
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
-    question.others.push_back(motion_now(state, state.jobs.at(motion.job)));
+    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;
+    question.others.push_back(motion_now(state, state.jobs.at(motion.step)));
   }
   return question;
 }
@@ -88,14 +88,14 @@ Question question_now(const State& state, const std::vector<JobId>& candidates) 
 Question question_by_itself(const State& state, const Job& job) {
   Question question = question_now(state, {});
   question.others.clear();
-  question.candidates = {Motion{job.id, job.trajectory, Duration{}}};
+  question.candidates = {Motion{job.step(), job.trajectory, Duration{}}};
   question.may_part = false;
   set_joints(question.rest, *job.trajectory, job.trajectory->start());
   return question;
 }
 
 CoordinatedMotion as_candidate(const State& state, const Job& job) {
-  return {.job = job.id,
+  return {.step = job.step(),
           .arms = job.trajectory->arms(),
           .duration = job.trajectory->duration(),
           .progress = job.progress,
@@ -107,7 +107,7 @@ CoordinatedMotion as_candidate(const State& state, const Job& job) {
 void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state) {
   for (const Passage& passage : unknown) {
     const Record& record = state.jobs.at(passage.leg);
-    question.passages.push_back({Motion{.job = passage.leg,
+    question.passages.push_back({Motion{.step = passage.leg,
                                         .trajectory = motion_of(passage, *state.cell, record),
                                         .progress = Duration{},
                                         .to_come = true},
@@ -120,8 +120,8 @@ Configuration rest_after_admitted(const State& state, const Job* job) {
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     const bool is_its_own = job != nullptr && job->trajectory->arms().front() == arm;
-    for (JobId id : state.jobs.queues()[arm]) {
-      const Job& other = state.jobs.at(id).job;
+    for (StepId step : state.jobs.queues()[arm]) {
+      const Job& other = state.jobs.at(step).job;
       if (&other == job || (!other.is_admitted() && !is_its_own)) break;
       follow_to_end(at, *state.cell, arm, *other.trajectory);
     }

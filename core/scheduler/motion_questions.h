@@ -7,9 +7,9 @@
 
 namespace armloom {
 
-// Returns the question to geometry about these jobs, against all admitted motions at their present
+// Returns the question to geometry about these steps, against all admitted motions at their present
 // progress.
-[[nodiscard]] Question question_now(const State& state, const std::vector<JobId>& candidates);
+[[nodiscard]] Question question_now(const State& state, const std::vector<StepId>& candidates);
 // Returns a question about this job without any other motion, as if its arms were at its start.
 [[nodiscard]] Question question_by_itself(const State& state, const Job& job);
 // Returns the job's Motion::off_path: how far its arms are off the start of its path (largest

@@ -22,7 +22,7 @@ std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const V
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) {
     if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
-      state.lanes.learn_in_the_way(record.job.id, *conflict.proximity.arm_b,
+      state.lanes.learn_in_the_way(record.job.step(), *conflict.proximity.arm_b,
                                    {conflict.proximity, conflict.own_time}, state.jobs, state.arms);
     }
     waits.push_back(wait_for(conflict));
@@ -104,7 +104,7 @@ void wait_behind(State& state, Record& record, JobId first) {
 }
 
 void wait_in_turn(State& state, Record& record, const SafeSequence::Outlook& outlook) {
-  Wait wait{.kind = Wait::Kind::predecessor, .job = outlook.first};
+  Wait wait{.kind = Wait::Kind::predecessor, .job = outlook.first->job};
   const auto& ends = record.leg.to;
   if (outlook.block && std::ranges::find(ends, outlook.in_the_way) != ends.end()) {
     wait.arm = outlook.block->proximity.arm_a;

@@ -1,8 +1,6 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,13 +12,12 @@
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
 #include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
-#include "core/scheduler/ways/detour.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/without_orders.h"
@@ -51,7 +48,7 @@ void note_progress(State& state, Record& record) {
     record.job.note_start(state.now);
     state.jobs.changed(record);
   }
-  if (moving != nullptr) extend_authority(state, record.job.id);
+  if (moving != nullptr) extend_authority(state, record.job.step());
 }
 
 // ---- Inputs that concern the shared state alone ----
@@ -66,30 +63,8 @@ void take(State& state, const Stop& input) {
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
+  for (ArmId arm : input.arms) rejoin(state, arm);
   explain_again(state, input.arms);
-}
-
-// Returns the detail of Reason::start_mismatch if the job's arm rests off its path; records how far
-// the arm is from the path otherwise.
-std::optional<std::string> left_path(const State& state, ArmId arm, Record& record) {
-  const Trajectory& motion = *record.job.trajectory;
-  Eigen::VectorXd path;
-  motion.sample_positions(record.job.progress, path);
-  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
-    const Joint& joint = state.cell->joint(motion.joints()[j]);
-    if (joint.arm != arm) continue;
-    const double on_path = path[static_cast<Eigen::Index>(j)];
-    const double found = state.arms.rest()[static_cast<Eigen::Index>(motion.joints()[j].index())];
-    const double off = std::abs(found - on_path);
-    record.off_path = std::max(record.off_path, off);
-    if (off <= state.cell->execution.start_tolerance_rad) continue;
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "the arm was moved while it was stopped: %s is at %.6g, its path at %.6g",
-                  joint.name.c_str(), found, on_path);
-    return text;
-  }
-  return std::nullopt;
 }
 
 void take(State& state, const Unlocated& input) {
@@ -110,23 +85,11 @@ void take(State& state, const Located& input) {
   state.arms.locate(*state.cell, input.arm, input.position);
   ++state.version;
   state.lanes.renew_later();
-  if (head != nullptr && head->job.has_started()) {
-    if (auto why = left_path(state, input.arm, *head)) {
-      const bool rejoins = head->job.goal || head->job.terms.move_to_start == MoveToStart::plan;
-      if (rejoins && !why_not_replanned(head->job)) {
-        ask_for_another_way(state, *head, AnotherWay::Cause::blocked);
-      } else {
-        give_up(state, *head,
-                {.then = AfterStop::Then::fail,
-                 .reason = Reason::start_mismatch,
-                 .detail = std::move(*why)});
-      }
-    }
-  }
+  rejoin(state, input.arm);
   compare_again(state);
 }
 void take(State& state, const StartRecorded& input) {
-  Record* record = state.jobs.find(input.job);
+  Record* record = state.jobs.find(input.step);
   if (record == nullptr) return;
   record->job.awaits_record = false;
   renew_clocks(state, record->job, true);
@@ -274,13 +237,6 @@ void Scheduler::on(const Replan& input) {
   ask_for_another_way(state_, *record, AnotherWay::Cause::client);
 }
 
-void Scheduler::on(const PlanMade& input) {
-  take_plan(state_, input);
-  if (take_other_way(state_, input)) cycles_.has_opened(state_, input.job);
-  take_way_aside(state_, input);
-  take_detour(state_, input);
-}
-
 void Scheduler::on(const Cancel& input) {
   Record* record = state_.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
@@ -294,12 +250,12 @@ void Scheduler::on(const Cancel& input) {
 }
 
 void Scheduler::on(const MotionReport& input) {
-  Record* record = state_.jobs.find(input.job);
+  Record* record = state_.jobs.find(input.step);
   if (record == nullptr || record->job.has_ended()) return;
   const Duration before = std::exchange(record->job.progress, input.progress);
   record->job.times.measured_at = state_.now;
   if (input.progress > before) note_moved(state_, record->job);
-  state_.graph.progress(record->job.id, input.progress);
+  state_.graph.progress(input.step, input.progress);
   see_pauses(state_, *record, before);
   if (input.kind == MotionReport::Kind::progressed) {
     note_progress(state_, *record);
@@ -308,6 +264,7 @@ void Scheduler::on(const MotionReport& input) {
     }
   } else {
     come_to_rest(state_, *record, input);
+    for (ArmId arm : record->job.trajectory->arms()) rejoin(state_, arm);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }
 }
@@ -336,7 +293,7 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const Job& head = state_.jobs.at(queue.front()).job;
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
-  return in_motion ? std::optional(queue.front()) : std::nullopt;
+  return in_motion ? std::optional(head.id) : std::nullopt;
 }
 
 void Scheduler::forget(JobId ended) {
@@ -399,7 +356,7 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
   }
   if (question.candidates.size() != 1) return std::nullopt;
   const std::vector<CoordinatedMotion> candidate{
-      as_candidate(state_, state_.jobs.at(question.candidates.front().job).job)};
+      as_candidate(state_, state_.jobs.at(question.candidates.front().step).job)};
   const PassingOrders orders =
       orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
   if (!orders.blockers.empty()) return std::nullopt;

@@ -13,6 +13,7 @@
 #include "core/scheduler/amending.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/ways/goals.h"
+#include "core/scheduler/ways/plan_requests.h"
 
 namespace armloom {
 
@@ -104,7 +105,7 @@ class Scheduler {
   void on(const Submit& input);
   void on(const Cancel& input);
   void on(const Judged& input) { admission_.on(input, state_, cycles_); }
-  void on(const PlanMade& input);
+  void on(const PlanMade& input) { take_plan(state_, input, cycles_); }
   void on(const Replan& input);
   void on(const MotionReport& input);
   void settle();

@@ -15,7 +15,7 @@ namespace {
 
 void renew_starts(State& state) {
   for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
-    Record& record = state.jobs.at(leg.job);
+    Record& record = state.jobs.at(leg.step);
     const bool is_to_start = record.job.in<Admitted>() != nullptr && !record.job.has_started();
     if (!is_to_start || !leg.starts || record.job.times.scheduled_at == leg.starts) continue;
     record.job.times.scheduled_at = leg.starts;
@@ -56,12 +56,12 @@ void set_speed(State& state, const SetSpeed& input) {
 }
 
 void explain_again(State& state, const std::vector<ArmId>& arms) {
-  std::set<JobId> jobs;
+  std::set<StepId> steps;
   for (const ArmId arm : arms) {
-    jobs.insert(state.jobs.queues()[arm].begin(), state.jobs.queues()[arm].end());
+    steps.insert(state.jobs.queues()[arm].begin(), state.jobs.queues()[arm].end());
   }
-  for (const JobId id : jobs) {
-    Record& record = state.jobs.at(id);
+  for (const StepId step : steps) {
+    Record& record = state.jobs.at(step);
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
     };

@@ -71,7 +71,8 @@ void Trial::answer(Verdict verdict) {
   // Not where an arm is asked about that would have gone aside.
   const bool as_arms_stand = question.rest == scheduler_.rest();
   const bool of_it = std::ranges::any_of(question.candidates, [this](const Motion& motion) {
-    return motion.job == job_ || std::ranges::find(approaches_, motion.job) != approaches_.end();
+    const JobId job = motion.step.job;
+    return job == job_ || std::ranges::find(approaches_, job) != approaches_.end();
   });
   if (of_it && as_arms_stand) {
     evaluations_ += verdict.evaluations;

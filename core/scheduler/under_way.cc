@@ -9,12 +9,12 @@ namespace armloom {
 void put_under_way(State& state, const std::vector<Motion>& motions) {
   std::vector<CoordinatedMotion> admitted;
   for (const Motion& motion : motions) {
-    const Submit job{.job = motion.job, .trajectory = motion.trajectory};
+    const Submit job{.job = motion.step.job, .trajectory = motion.trajectory};
     add(state, record_of(state, job));
   }
   state.round = state.policy->next_round(state);
   for (const Motion& motion : motions) {
-    Record& record = state.jobs.at(motion.job);
+    Record& record = state.jobs.at(motion.step);
     record.job.progress = motion.progress;
     const bool has_moved = motion.progress > Duration{};
     if (has_moved) record.job.note_start(state.now);

@@ -23,17 +23,17 @@ std::vector<Duration> work_behind(const State& state, const std::vector<const Jo
   return work;
 }
 
-void prepare_choice(State& state, const std::vector<JobId>& jobs) {
+void prepare_choice(State& state, const std::vector<StepId>& steps) {
   std::vector<const Job*> in_front;
-  for (JobId id : jobs) in_front.push_back(&state.jobs.at(id).job);
+  for (StepId step : steps) in_front.push_back(&state.jobs.at(step).job);
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Record& record = state.jobs.at(motion.job);
+    const Record& record = state.jobs.at(motion.step);
     const bool weighs = state.policy->weighs_again();
     const Duration stands = weighs ? stood_for(*state.cell, record.job, state.now) : Duration{};
     const bool is_aged = state.has_aged(record);
     const double planned = state.speed.pace(motion.arms);
     state.graph.set_outlook(
-        motion.job,
+        motion.step,
         {.keeps_its_place = is_aged && stands <= Duration{},
          .stands_for = stands,
          .pace = weighs ? pace_of(*state.cell, record.job, planned, state.now) : planned});
@@ -63,9 +63,9 @@ void weigh_again(State& state) {
 // waits for it: that is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
   if (!state.policy->weighs_again()) return std::nullopt;
-  const auto job_of = [&](JobId id) -> const Job& { return state.jobs.at(id).job; };
+  const auto job_of = [&](StepId step) -> const Job& { return state.jobs.at(step).job; };
   const bool moves = std::ranges::any_of(state.graph.motions(), [&](const auto& motion) {
-    const auto* moving = job_of(motion.job).template in<Moving>();
+    const auto* moving = job_of(motion.step).template in<Moving>();
     return moving != nullptr && !moving->pause;
   });
   if (moves) return TimePoint((state.now.time_since_epoch() / kEvery + 1) * kEvery);

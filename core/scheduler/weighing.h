@@ -23,9 +23,9 @@ void weigh_again(State& state);
 [[nodiscard]] std::vector<Duration> work_behind(const State& state,
                                                 const std::vector<const Job*>& in_front);
 
-// Updates the precedence graph before orders are chosen for the admitted motions and for `jobs`.
+// Updates the precedence graph before orders are chosen for the admitted motions and for `steps`.
 // Sets the work behind all of these, predicted rests and paces, and which motions may not be
 // overtaken any more.
-void prepare_choice(State& state, const std::vector<JobId>& jobs);
+void prepare_choice(State& state, const std::vector<StepId>& steps);
 
 }  // namespace armloom

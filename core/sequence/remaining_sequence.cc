@@ -12,8 +12,8 @@ namespace {
 // So far the sequence is looked at for a leg that is not in it.
 constexpr std::size_t kFar = 256;
 
-bool among(const std::vector<JobId>& jobs, JobId job) {
-  return std::ranges::find(jobs, job) != jobs.end();
+bool among(const std::vector<StepId>& steps, StepId step) {
+  return std::ranges::find(steps, step) != steps.end();
 }
 
 bool share_an_arm(const WaitingLeg& a, const WaitingLeg& b) {
@@ -50,7 +50,7 @@ class SafeSequence::Search {
     for (std::size_t i = 0; i < legs_.size(); ++i) {
       if ((done >> i & 1U) != 0 || i == leg) continue;
       if (i < leg && share_an_arm(*legs_[i], *legs_[leg])) return false;
-      if (among(legs_[leg]->after, legs_[i]->job)) return false;
+      if (among(legs_[leg]->after, legs_[i]->step)) return false;
     }
     return true;
   }
@@ -61,13 +61,13 @@ class SafeSequence::Search {
 };
 
 // The legs that would be done after the group instead of before it, and those that come soon.
-SafeSequence::Concerned SafeSequence::concerned(const std::vector<JobId>& group,
+SafeSequence::Concerned SafeSequence::concerned(const std::vector<StepId>& group,
                                                 const State& then) {
   std::size_t left = 0;
   std::size_t far = 0;
   if (then != stands_) {
-    for (JobId job : group) {
-      if (index_.at(job)->placed) {
+    for (StepId step : group) {
+      if (index_.at(step)->placed) {
         ++left;
       } else {
         far = kFar;
@@ -77,7 +77,7 @@ SafeSequence::Concerned SafeSequence::concerned(const std::vector<JobId>& group,
   Concerned found;
   for (Leg& leg : sequence_) {
     if (left == 0 && found.legs.size() >= std::max(far, kKnownAhead)) break;
-    if (!among(group, leg.job)) {
+    if (!among(group, leg.step)) {
       found.legs.push_back(&leg);
       if (left > 0 || found.legs.size() <= far) found.overtaken = found.legs.size();
     } else if (left > 0) {
@@ -94,13 +94,13 @@ std::optional<SafeSequence::Order> SafeSequence::search(const State& state, Orde
   return std::move(search.order);
 }
 
-SafeSequence::Outlook SafeSequence::after(const std::vector<JobId>& group) {
+SafeSequence::Outlook SafeSequence::after(const std::vector<StepId>& group) {
   asked_ = group;
   found_.clear();
   Outlook outlook;
   place_more(outlook.ahead);
   State then = stands_;
-  for (JobId job : group) move(then, *index_.at(job));
+  for (StepId step : group) move(then, *index_.at(step));
   for (;;) {
     const auto [legs, overtaken] = concerned(group, then);
     Walk needed = walk(then, std::span(legs).first(overtaken));
@@ -162,7 +162,7 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
     if (!now.unknown.empty()) return Outlook{.unknown = std::move(now.unknown)};
     return Outlook{.unknown = {},
                    .ahead = {},
-                   .first = blocked.job,
+                   .first = blocked.step,
                    .in_the_way = walk_then.in_the_way,
                    .block = walk_then.block};
   }
@@ -189,21 +189,21 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
 // ---- What is in no sequence ----
 
 // Neither cut, nor behind what is.
-SafeSequence::Order SafeSequence::all_that_may_go(const std::vector<JobId>& but) {
+SafeSequence::Order SafeSequence::all_that_may_go(const std::vector<StepId>& but) {
   Order legs;
   std::vector<bool> barred(stands_.size(), false);
-  std::set<JobId> left;
+  std::set<StepId> left;
   for (Legs* list : {&sequence_, &unplaced_}) {
     for (Leg& leg : *list) {
-      if (among(but, leg.job)) continue;
+      if (among(but, leg.step)) continue;
       const bool goes = !leg.cut && std::ranges::none_of(leg.arms, [&](ArmId arm) {
         return barred[arm.index()];
-      }) && std::ranges::none_of(leg.after, [&](JobId job) { return left.contains(job); });
+      }) && std::ranges::none_of(leg.after, [&](StepId step) { return left.contains(step); });
       if (goes) {
         legs.push_back(&leg);
         continue;
       }
-      left.insert(leg.job);
+      left.insert(leg.step);
       for (ArmId arm : leg.arms) barred[arm.index()] = true;
     }
   }
@@ -236,8 +236,8 @@ void SafeSequence::place_behind(std::vector<Passage>& unknown) {
     const auto here = leg++;
     const bool behind = std::ranges::any_of(
         here->arms, [&](ArmId arm) { return static_cast<bool>(passed_over[arm.index()]); });
-    const bool free = !behind && !here->cut && std::ranges::all_of(here->after, [&](JobId job) {
-      const auto known = index_.find(job);
+    const bool free = !behind && !here->cut && std::ranges::all_of(here->after, [&](StepId step) {
+      const auto known = index_.find(step);
       return known == index_.end() || known->second->placed;
     }) && passes(*here, state, &unknown) == Passes::free;
     if (!free) {
@@ -254,7 +254,7 @@ void SafeSequence::place_behind(std::vector<Passage>& unknown) {
 
 void SafeSequence::put_in_order(const Order& order) {
   for (auto leg = order.rbegin(); leg != order.rend(); ++leg) {
-    const auto here = index_.at((*leg)->job);
+    const auto here = index_.at((*leg)->step);
     if (!here->placed) {
       for (ArmId arm : here->arms) --unplaced_legs_[arm.index()];
     }
@@ -267,15 +267,15 @@ void SafeSequence::put_in_order(const Order& order) {
 void SafeSequence::take_out(Leg& leg) {
   Legs out;
   std::vector<bool> cut_off(stands_.size(), false);
-  std::set<JobId> left;
-  for (auto next = index_.at(leg.job); next != sequence_.end();) {
+  std::set<StepId> left;
+  for (auto next = index_.at(leg.step); next != sequence_.end();) {
     const auto here = next++;
     const bool goes = &*here == &leg || std::ranges::any_of(here->arms, [&](ArmId arm) {
       return cut_off[arm.index()];
-    }) || std::ranges::any_of(here->after, [&](JobId job) { return left.contains(job); });
+    }) || std::ranges::any_of(here->after, [&](StepId step) { return left.contains(step); });
     if (!goes) continue;
     here->placed = false;
-    left.insert(here->job);
+    left.insert(here->step);
     for (ArmId arm : here->arms) {
       cut_off[arm.index()] = true;
       ++unplaced_legs_[arm.index()];

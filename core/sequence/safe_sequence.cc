@@ -19,9 +19,9 @@ SafeSequence::SafeSequence(const SafeSequence& other)
       tried_(other.tried_),
       asked_(other.asked_) {
   for (Legs* legs : {&sequence_, &unplaced_}) {
-    for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->job, leg);
+    for (auto leg = legs->begin(); leg != legs->end(); ++leg) index_.emplace(leg->step, leg);
   }
-  for (const Leg* leg : other.found_) found_.push_back(&*index_.at(leg->job));
+  for (const Leg* leg : other.found_) found_.push_back(&*index_.at(leg->step));
 }
 
 void SafeSequence::move(State& state, const WaitingLeg& leg) {
@@ -32,17 +32,17 @@ void SafeSequence::move(State& state, const WaitingLeg& leg) {
 bool SafeSequence::follows(const Leg& leg) const {
   return !leg.cut && std::ranges::all_of(leg.arms, [&](ArmId arm) {
     return unplaced_legs_[arm.index()] == 0;
-  }) && std::ranges::all_of(leg.after, [&](JobId before) {
+  }) && std::ranges::all_of(leg.after, [&](StepId before) {
     const auto known = index_.find(before);
     return known == index_.end() || known->second->placed;
   });
 }
 
 void SafeSequence::append(WaitingLeg waiting) {
-  const JobId job = waiting.job;
+  const StepId step = waiting.step;
   const State past = waiting.is_estimate || waiting.is_approached ? ends_ : State{};
   add(std::move(waiting));
-  assume(*index_.at(job), past);
+  assume(*index_.at(step), past);
 }
 
 // What is still to be planned will pass these.
@@ -69,14 +69,14 @@ void SafeSequence::add(WaitingLeg waiting) {
   leg.placed = follows(leg);
   for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
   Legs& legs = leg.placed ? sequence_ : unplaced_;
-  const JobId job = leg.job;
+  const StepId step = leg.step;
   legs.push_back(std::move(leg));
-  index_.insert_or_assign(job, std::prev(legs.end()));
+  index_.insert_or_assign(step, std::prev(legs.end()));
   tried_ = false;
 }
 
-bool SafeSequence::remove(JobId job) {
-  const auto known = index_.find(job);
+bool SafeSequence::remove(StepId step) {
+  const auto known = index_.find(step);
   if (known == index_.end()) return true;
   const auto leg = known->second;
   const bool stays = leg->from == leg->to && !leg->cut && leg->approaches.empty();
@@ -91,36 +91,36 @@ bool SafeSequence::remove(JobId job) {
   return stays;
 }
 
-void SafeSequence::admitted(const std::vector<JobId>& group) {
+void SafeSequence::admitted(const std::vector<StepId>& group) {
   const Order order = group == asked_ ? std::exchange(found_, {}) : Order{};
   put_in_order(order);
-  for (JobId job : group) {
-    const auto known = index_.find(job);
+  for (StepId step : group) {
+    const auto known = index_.find(step);
     if (known == index_.end()) continue;
     move(stands_, *known->second);
-    (void)remove(job);
+    (void)remove(step);
   }
 }
 
 void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs) {
   Legs old = std::move(sequence_);
   old.splice(old.end(), unplaced_);
-  const std::unordered_map<JobId, Legs::iterator> known = std::exchange(index_, {});
+  const std::unordered_map<StepId, Legs::iterator> known = std::exchange(index_, {});
   const std::size_t arms = stands.size();
   apart_.resize(arms, std::vector<bool>(arms, false));
   unplaced_legs_.assign(arms, 0);
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
-  std::unordered_map<JobId, State> past;  // of those of which something is still to be planned
+  std::unordered_map<StepId, State> past;  // of those of which something is still to be planned
   State in_turn = stands_;
   for (const WaitingLeg& leg : legs) {
-    if (leg.is_estimate || leg.is_approached) past.emplace(leg.job, in_turn);
+    if (leg.is_estimate || leg.is_approached) past.emplace(leg.step, in_turn);
     move(in_turn, leg);
   }
   // By the old order; a new one before the first old one that follows it.
-  std::unordered_map<JobId, const WaitingLeg*> given;
-  for (const WaitingLeg& leg : legs) given.emplace(leg.job, &leg);
+  std::unordered_map<StepId, const WaitingLeg*> given;
+  for (const WaitingLeg& leg : legs) given.emplace(leg.step, &leg);
   std::vector<const WaitingLeg*> order;
   std::vector<std::vector<const WaitingLeg*>> to_come(arms);  // by arm, the last one first
   for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg) {
@@ -129,26 +129,26 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   const auto take = [&](const WaitingLeg& until, const auto& again) -> void {
     for (ArmId arm : until.arms) {
       auto& lane = to_come[arm.index()];
-      while (!lane.empty() && lane.back()->job != until.job) again(*lane.back(), again);
+      while (!lane.empty() && lane.back()->step != until.step) again(*lane.back(), again);
     }
-    if (given.erase(until.job) == 0) return;
+    if (given.erase(until.step) == 0) return;
     order.push_back(&until);
     for (ArmId arm : until.arms) to_come[arm.index()].pop_back();
   };
   for (const Leg& leg : old) {
-    const auto still = given.find(leg.job);
+    const auto still = given.find(leg.step);
     if (still != given.end()) take(*still->second, take);
   }
   for (const WaitingLeg& leg : legs) {
-    if (given.contains(leg.job)) take(leg, take);
+    if (given.contains(leg.step)) take(leg, take);
   }
-  std::set<JobId> to_be_added;
-  for (const WaitingLeg* leg : order) to_be_added.insert(leg->job);
+  std::set<StepId> to_be_added;
+  for (const WaitingLeg* leg : order) to_be_added.insert(leg->step);
   for (const WaitingLeg* leg : order) {
     add(*leg);
-    to_be_added.erase(leg->job);
-    Leg& added = *index_.at(leg->job);
-    const auto before = known.find(leg->job);
+    to_be_added.erase(leg->step);
+    Leg& added = *index_.at(leg->step);
+    const auto before = known.find(leg->step);
     const bool is_same = before != known.end() && before->second->arms == added.arms &&
                          before->second->motion == added.motion;
     if (is_same) added.free = std::move(before->second->free);
@@ -157,29 +157,29 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
       for (Approach& was : before->second->approaches)
         if (was.from == approach.from) approach.free = std::move(was.free);
     }
-    if (const auto others = past.find(leg->job); others != past.end())
+    if (const auto others = past.find(leg->step); others != past.end())
       assume(added, others->second);
     const bool too_early =
-        std::ranges::any_of(leg->after, [&](JobId job) { return to_be_added.contains(job); });
+        std::ranges::any_of(leg->after, [&](StepId step) { return to_be_added.contains(step); });
     if (too_early && added.placed) take_out(added);
   }
 }
 
-bool SafeSequence::follows_on(JobId job) const {
-  const auto known = index_.find(job);
+bool SafeSequence::follows_on(StepId step) const {
+  const auto known = index_.find(step);
   return known == index_.end() || (!known->second->cut && known->second->approaches.empty());
 }
 
-bool SafeSequence::has_place(JobId job) const {
-  const auto known = index_.find(job);
+bool SafeSequence::has_place(StepId step) const {
+  const auto known = index_.find(step);
   return known == index_.end() || known->second->placed;
 }
 
-bool SafeSequence::goes_before(JobId first, JobId other) const {
+bool SafeSequence::goes_before(StepId first, StepId other) const {
   const auto known = index_.find(first);
   if (known == index_.end() || !known->second->placed) return false;
-  const auto is_either = [&](const Leg& leg) { return leg.job == first || leg.job == other; };
-  return std::ranges::find_if(sequence_, is_either)->job == first;
+  const auto is_either = [&](const Leg& leg) { return leg.step == first || leg.step == other; };
+  return std::ranges::find_if(sequence_, is_either)->step == first;
 }
 
 // ---- What is known ----
@@ -201,7 +201,7 @@ void SafeSequence::learn(const Passage& passage, bool free,
 }
 
 void SafeSequence::forget_passages() {
-  for (auto& [job, leg] : index_) {
+  for (auto& [step, leg] : index_) {
     leg->free.clear();
     for (Approach& approach : leg->approaches) approach.free.clear();
     leg->seen.clear();
@@ -224,7 +224,7 @@ SafeSequence::Passes SafeSequence::passes(Leg& leg, const State& state,
       return true;
     }
     known = false;
-    if (unknown != nullptr) unknown->push_back({leg.job, place, leg.motion, from});
+    if (unknown != nullptr) unknown->push_back({leg.step, place, leg.motion, from});
     return false;
   };
   for (std::size_t arm = 0; arm < state.size(); ++arm) {

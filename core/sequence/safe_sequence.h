@@ -16,35 +16,35 @@ namespace armloom {
 
 struct PassageBlock;  // evidence that a passage is blocked; only stored here
 
-// A leg of the sequence: the motion of a waiting job, from rest to rest.
+// A leg of the sequence: the motion of a waiting step, from rest to rest.
 struct WaitingLeg {
-  JobId job;
+  StepId step;
   std::vector<ArmId> arms;
   std::vector<PlacePtr> from;  // by arm, as in `arms`
   std::vector<PlacePtr> to;
-  std::vector<JobId> after = {};  // waiting jobs that must be done before it
-  // Revision of the job's motion. Cached answers apply only to the revision for which they were
+  std::vector<StepId> after = {};  // waiting steps that must be done before it
+  // Revision of the step's motion. Cached answers apply only to the revision for which they were
   // given.
   std::uint64_t motion = 0;
   // The path is still to be planned, around all other arms where they are when the legs before it
   // are done. So the leg is assumed to pass those places. For other places the estimated path is
   // checked.
   bool is_estimate = false;
-  // The job's arms are first moved to its start from wherever they are, on estimated paths.
+  // The step's arms are first moved to its start from wherever they are, on estimated paths.
   bool is_approached = false;
 };
 
 // The question whether the leg's path is free while an arm that the leg does not move rests at
 // `place`.
 struct Passage {
-  JobId leg;
+  StepId leg;
   PlacePtr place;
   std::uint64_t motion = 0;  // WaitingLeg::motion
   PlacePtr from = nullptr;   // if set: the question is about the move from there to the leg's start
 };
 
-// Keeps an order in which all waiting jobs can be done, at least one after the other, when all
-// admitted jobs have ended. This is Dijkstra's banker's algorithm (1965) with places instead of
+// Keeps an order in which all waiting steps can be done, at least one after the other, when all
+// admitted steps have ended. This is Dijkstra's banker's algorithm (1965) with places instead of
 // money. The first such order is the order of submission. If an admission breaks the order, another
 // order of the first legs is searched.
 //
@@ -52,7 +52,7 @@ struct Passage {
 // overtakes. Other unknown passages are assumed to be free. Answers are cached by leg and place.
 //
 // A leg for which no order is found, and all legs that depend on it, are not in the sequence, and
-// no job waits for them. Pure.
+// no step waits for them. Pure.
 class SafeSequence {
  public:
   // `start_tolerance`: largest distance per joint (rad, m) between a leg's start and the position
@@ -72,11 +72,11 @@ class SafeSequence {
   void append(WaitingLeg leg);
   // Removes a leg that was not admitted. Returns false if later legs may no longer begin where
   // their arms will be; then call renew().
-  [[nodiscard]] bool remove(JobId job);
+  [[nodiscard]] bool remove(StepId step);
   // Records that the group of the last after() call was admitted. Its arms will be at the ends of
   // these legs.
-  void admitted(const std::vector<JobId>& group);
-  // Rebuilds the sequence. `stands`: the place of each arm when all admitted jobs have ended.
+  void admitted(const std::vector<StepId>& group);
+  // Rebuilds the sequence. `stands`: the place of each arm when all admitted steps have ended.
   // `legs`: all waiting legs, in an order that every arm queue allows. Keeps cached answers and, if
   // possible, the previous order of the legs.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
@@ -92,18 +92,18 @@ class SafeSequence {
 
   // Returns true if `first` is in the sequence, and `other` comes later or is not in it. Takes time
   // linear in the position of the earlier one.
-  [[nodiscard]] bool goes_before(JobId first, JobId other) const;
-  // Returns true if the job is in the sequence, or if it is not a waiting leg.
-  [[nodiscard]] bool has_place(JobId job) const;
-  // Returns true if the job begins where the legs before it leave its arms, or if it is not a
+  [[nodiscard]] bool goes_before(StepId first, StepId other) const;
+  // Returns true if the step is in the sequence, or if it is not a waiting leg.
+  [[nodiscard]] bool has_place(StepId step) const;
+  // Returns true if the step begins where the legs before it leave its arms, or if it is not a
   // waiting leg.
-  [[nodiscard]] bool follows_on(JobId job) const;
+  [[nodiscard]] bool follows_on(StepId step) const;
 
   struct Outlook {
     std::vector<Passage> unknown;  // must be learned before an answer; then call after() again
     // Not needed for this answer; learned early, they show dead ends early.
     std::vector<Passage> ahead;
-    std::optional<JobId> first;  // if set: this leg must be done before the group, ...
+    std::optional<StepId> first;  // if set: this leg must be done before the group, ...
     // ... because an arm would rest in its path: the place, and the evidence if known
     PlacePtr in_the_way = nullptr;
     std::shared_ptr<const PassageBlock> block = nullptr;
@@ -112,7 +112,7 @@ class SafeSequence {
   // Returns what remains of the sequence if these legs are admitted now. A sequence exists if
   // `unknown` and `first` are empty. Precondition: each leg is the first in its arm queues, except
   // for legs named before it in the group.
-  [[nodiscard]] Outlook after(const std::vector<JobId>& group);
+  [[nodiscard]] Outlook after(const std::vector<StepId>& group);
 
  private:
   struct Known {
@@ -154,8 +154,8 @@ class SafeSequence {
   [[nodiscard]] bool follows(const Leg& leg) const;
   Passes passes(Leg& leg, const State& state, std::vector<Passage>* unknown, Walk* walk = nullptr);
   Walk walk(State state, std::span<Leg* const> order);
-  [[nodiscard]] Concerned concerned(const std::vector<JobId>& group, const State& then);
-  [[nodiscard]] Order all_that_may_go(const std::vector<JobId>& but);
+  [[nodiscard]] Concerned concerned(const std::vector<StepId>& group, const State& then);
+  [[nodiscard]] Order all_that_may_go(const std::vector<StepId>& but);
   std::optional<Order> search(const State& state, Order legs);
   std::optional<Outlook> mend(const State& then, const Order& legs, const Walk& walk_then,
                               bool& mended);
@@ -165,16 +165,16 @@ class SafeSequence {
   void take_out(Leg& leg);
 
   double tolerance_;
-  State stands_;  // when all admitted jobs have ended
-  State ends_;    // when all jobs have ended
+  State stands_;  // when all admitted steps have ended
+  State ends_;    // when all steps have ended
   Legs sequence_;
   Legs unplaced_;  // legs in no sequence; each comes after the legs that it depends on
   std::vector<std::size_t> unplaced_legs_;  // by ArmId: number of legs
-  std::unordered_map<JobId, Legs::iterator> index_;
+  std::unordered_map<StepId, Legs::iterator> index_;
   std::vector<std::vector<bool>> apart_;  // by ArmId, ArmId
-  bool tried_ = false;        // no more legs could be placed, and nothing has changed since
-  std::vector<JobId> asked_;  // the group of the last after() call
-  Order found_;               // the new front of the sequence if that group is admitted
+  bool tried_ = false;         // no more legs could be placed, and nothing has changed since
+  std::vector<StepId> asked_;  // the group of the last after() call
+  Order found_;                // the new front of the sequence if that group is admitted
 };
 
 }  // namespace armloom

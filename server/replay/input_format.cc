@@ -59,6 +59,13 @@ PartPtr<T> number_part(std::string_view key, JobId T::*where) {
       [](std::uint64_t number) { return JobId{number}; });
 }
 
+PartPtr<StepId> step_part() {
+  return parts<StepId>({
+      number_part("job", &StepId::job),
+      omit_default("step", &StepId::index, 0, whole<std::uint32_t>(), "Index of the job's step"),
+  });
+}
+
 template <class T>
 PartPtr<T> nanoseconds_part(std::string_view key, TimePoint T::*where) {
   return always(
@@ -215,9 +222,9 @@ KindOfEach<decltype(In::what)>::Table kinds() {
                      "The check was ended early: its verdict is void")}},
       {"certified", {always("evaluations", &In::Certified::evaluations, whole())}},
       {"planned",
-       {number_part("job", &In::Planned::job),
+       {inlined(&In::Planned::step, step_part()),
         always("question", &In::Planned::question, whole())}},
-      {"start_written", {number_part("job", &In::StartWritten::job)}},
+      {"start_written", {inlined(&In::StartWritten::step, step_part())}},
       {"reported", {report_part()}},
       {"connected",
        {always("arm", &In::Connected::arm, text()),

@@ -159,7 +159,7 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Judged& in) { loop_->answer_question(in.interrupted); }
   void comes(const In::Certified&) { loop_->answer_certify(); }
   void comes(const In::Planned&) { loop_->answer_plan(); }
-  void comes(const In::StartWritten& in) { loop_->write_start(in.job); }
+  void comes(const In::StartWritten& in) { loop_->write_start(in.step.job); }
   void comes(const In::Reported& in) { comes_from_arm(in); }
   void comes(const In::Connected& in) { comes_from_arm(in); }
   template <class Input>

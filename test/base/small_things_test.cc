@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <type_traits>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/ids.h"
 #include "core/base/rounding_noise.h"
 #include "core/base/time.h"
 #include "core/base/whole_turns.h"
@@ -20,6 +22,14 @@ TEST(CellTime, IsRoundedToTheNearestNanosecond) {
   for (const Duration d : {1ns, 999'999'999ns, 3'600'000'000'001ns}) {
     EXPECT_EQ(from_seconds(to_seconds(d)), d) << d.count();
   }
+}
+
+TEST(StepId, ComparesByJobThenByIndex) {
+  const StepId first{JobId{3}}, second{JobId{3}, 1}, of_next_job{JobId{4}};
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, of_next_job);
+  EXPECT_NE(std::hash<StepId>{}(first), std::hash<StepId>{}(second));
+  static_assert(!std::is_convertible_v<JobId, StepId>);
 }
 
 TEST(DisjointSets, UseTheFirstMemberAsRoot) {

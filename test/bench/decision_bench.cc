@@ -120,7 +120,7 @@ class Hall {
   [[nodiscard]] bool alone(const TrajectoryPtr& motion) {
     const Question question{.version = 1,
                             .start_at = TimePoint{},
-                            .candidates = {{JobId{1}, motion, Duration{}}},
+                            .candidates = {{StepId{JobId{1}}, motion, Duration{}}},
                             .others = {},
                             .rest = cell_->home(),
                             .method = Coordinated{TrackingErrors(*cell_)}};
@@ -166,13 +166,13 @@ class Hall {
     step(Submit{job, motion, {0, 3600s}});
     return job;
   }
-  void run(JobId job) { step(MotionReport{job, MotionReport::Kind::progressed, 1ms}); }
+  void run(JobId job) { step(MotionReport{only_step(job), MotionReport::Kind::progressed, 1ms}); }
   void withdraw(JobId job) {
     step(Cancel{job});
     const Job& canceled = *scheduler_.find(job);
     if (!is_terminal(canceled.state())) {  // its arm already had the motion
-      step(
-          MotionReport{job, MotionReport::Kind::stopped, Duration{}, canceled.trajectory->start()});
+      step(MotionReport{only_step(job), MotionReport::Kind::stopped, Duration{},
+                        canceled.trajectory->start()});
     }
     answer_all();
     scheduler_.forget(job);

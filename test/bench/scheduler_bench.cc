@@ -77,10 +77,11 @@ class Crowd {
   void progressed() {
     now_ += 1ms;
     progress_ += 1ms;
-    step(MotionReport{running_, MotionReport::Kind::progressed, progress_});
+    step(MotionReport{only_step(running_), MotionReport::Kind::progressed, progress_});
   }
   void finished() {
-    step(MotionReport{running_, MotionReport::Kind::finished, 10s, Eigen::VectorXd::Zero(1)});
+    step(MotionReport{only_step(running_), MotionReport::Kind::finished, 10s,
+                      Eigen::VectorXd::Zero(1)});
     answer_all();
   }
   [[nodiscard]] bool nearly_done() const { return progress_ > 9s; }
@@ -104,11 +105,11 @@ class Crowd {
     const Proximity proximity{.body_a = "own", .body_b = "other", .arm_b = kInTheWay};
     if (std::holds_alternative<Coordinated>(question.method)) {
       const ProgressBox box{1s, 2s, Duration{}, Duration{}};
-      verdict.regions.push_back({motion.job, kInTheWay, {{{box}, proximity, 1s, Duration{}}}});
+      verdict.regions.push_back({motion.step, kInTheWay, {{{box}, proximity, 1s, Duration{}}}});
     } else {
       verdict.kind = Verdict::Kind::conflict;
       verdict.conflicts.push_back(
-          {Conflict::With::rest, motion.job, std::nullopt, proximity, 1s, Duration{}});
+          {Conflict::With::rest, motion.step, std::nullopt, proximity, 1s, Duration{}});
     }
     return verdict;
   }

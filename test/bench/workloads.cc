@@ -69,7 +69,7 @@ Question admission(const Motions& motions, std::size_t candidate, const CheckMet
                     .rest = motions.rest,
                     .method = method};
   for (std::size_t i = 0; i < motions.trajectories.size(); ++i) {
-    Motion motion{JobId{i + 1}, motions.trajectories[i], Duration{0}};
+    Motion motion{StepId{JobId{i + 1}}, motions.trajectories[i], Duration{0}};
     (i == candidate ? question.candidates : question.others).push_back(std::move(motion));
   }
   return question;

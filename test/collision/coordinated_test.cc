@@ -59,8 +59,8 @@ TEST(CoordinatedCheck, RegionEnclosesTheCrossingDiskTightly) {
     EXPECT_TRUE(verdict.conflicts.empty());
     ASSERT_EQ(verdict.regions.size(), 1U);
     const PairRegions& pair = verdict.regions[0];
-    EXPECT_EQ(pair.a, JobId{turned ? 2U : 1U});
-    EXPECT_EQ(std::get<JobId>(pair.b), JobId{turned ? 1U : 2U});
+    EXPECT_EQ(pair.a, StepId{JobId{turned ? 2U : 1U}});
+    EXPECT_EQ(std::get<StepId>(pair.b), StepId{JobId{turned ? 1U : 2U}});
     ASSERT_EQ(pair.regions.size(), 1U);
     EXPECT_LE(pair.regions[0].boxes.size(), 40U);
     const Proximity& proximity = pair.regions[0].proximity;
@@ -169,7 +169,7 @@ TEST(CoordinatedCheck, ComparesMotionsOfDifferentArmsOnly) {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
   for (const PairRegions& pair : verdict.regions) {
     EXPECT_EQ(pair.regions.size(), 1U);
-    pairs.emplace_back(pair.a.value(), std::get<JobId>(pair.b).value());
+    pairs.emplace_back(pair.a.job.value(), std::get<StepId>(pair.b).job.value());
   }
   const std::vector<std::pair<std::uint64_t, std::uint64_t>> expected{
       {1, 11}, {1, 12}, {1, 3}, {2, 11}, {2, 12}, {2, 3}, {3, 13}};
@@ -245,7 +245,7 @@ TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   rails.question.others.push_back(rails.to_come(rails.motion(3, {kY}, 0.1, 1.5)));
   verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
-  EXPECT_EQ(std::get<JobId>(verdict.regions[0].b), JobId{3});
+  EXPECT_EQ(std::get<StepId>(verdict.regions[0].b), StepId{JobId{3}});
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 

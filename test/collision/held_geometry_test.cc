@@ -92,11 +92,11 @@ TEST(AttachedObjects, KeepTheClearanceAlongSweptMotions) {
       return values;
     };
     const Configuration to = h.random_configuration();
-    const Motion candidate{JobId{1},
+    const Motion candidate{StepId{JobId{1}},
                            small::sweep(*h.cell, {ArmId{0}}, towards(ArmId{0}, to, 0.0),
                                         towards(ArmId{0}, to, 0.3), 2s),
                            0s};
-    const Motion other{JobId{2},
+    const Motion other{StepId{JobId{2}},
                        small::sweep(*h.cell, {ArmId{1}}, towards(ArmId{1}, to, 0.0),
                                     towards(ArmId{1}, to, 0.3), 3s),
                        500ms};

@@ -19,7 +19,7 @@ using With = Conflict::With;
 
 const ArmId kA{0};
 const ArmId kB{1};
-const JobId kJob{1};
+const StepId kStep{JobId{1}};
 constexpr double kPi = small::kHalfTurn;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
@@ -60,7 +60,7 @@ const std::vector<CheckMethod>& methods() {
 }
 
 Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
-  return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
+  return {1, at(0s), {{kStep, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
 }
 
 // Checks bare arms, then attached objects, then bare arms again, with one checker. Only the second

@@ -16,7 +16,7 @@ TEST(DiscreteCheck, ReportsAnArmAtRestThatNoJobWillMove) {
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::rest);
   EXPECT_EQ(verdict.conflicts[0].proximity.arm_b, kB);
-  EXPECT_FALSE(verdict.conflicts[0].other_job.has_value());
+  EXPECT_FALSE(verdict.conflicts[0].other_step.has_value());
 }
 
 TEST(DiscreteCheck, PutsTheCandidateFirstInTheEvidence) {
@@ -42,10 +42,11 @@ TEST(DiscreteCheck, ReportsEveryCounterpartAtTheFirstConflict) {
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 3U);  // the pair b and c is not part of the question
   EXPECT_EQ(verdict.conflicts[0].with, With::motion);
-  EXPECT_EQ(verdict.conflicts[0].other_job, JobId{3});
+  EXPECT_EQ(verdict.conflicts[0].other_step, StepId{JobId{3}});
   EXPECT_EQ(verdict.conflicts[1].proximity.body_b, "post");
   EXPECT_EQ(verdict.conflicts[2].proximity.body_b, "ball");
-  for (const Conflict& conflict : verdict.conflicts) EXPECT_EQ(conflict.candidate, JobId{5});
+  for (const Conflict& conflict : verdict.conflicts)
+    EXPECT_EQ(conflict.candidate, StepId{JobId{5}});
 }
 
 TEST(DiscreteCheck, ReportsAStaticLinkOfAnotherRobotAsScene) {
@@ -68,7 +69,7 @@ TEST(DiscreteCheck, ReportsSceneAndSelfConflicts) {
   const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
   Judged judged(cell);
   judged.question.candidates = {
-      {JobId{1}, small::sweep(*judged.cell, {arm}, {0, 0, 0}, {0, 2.8, 2.8}, 2s), 0s}};
+      {StepId{JobId{1}}, small::sweep(*judged.cell, {arm}, {0, 0, 0}, {0, 2.8, 2.8}, 2s), 0s}};
   const Verdict self = judged();
   ASSERT_EQ(self.conflicts.size(), 1U);
   EXPECT_EQ(self.conflicts[0].with, With::self);
@@ -78,7 +79,7 @@ TEST(DiscreteCheck, ReportsSceneAndSelfConflicts) {
   cell.objects.push_back({"wall", Box{{2, 0.1, 2}}, small::at_xyz(0, 0.3, 0)});
   Judged walled(cell);
   walled.question.candidates = {
-      {JobId{1}, small::sweep(*walled.cell, {arm}, {0, 0, 0}, {1.5, 0, 0}, 2s), 0s}};
+      {StepId{JobId{1}}, small::sweep(*walled.cell, {arm}, {0, 0, 0}, {1.5, 0, 0}, 2s), 0s}};
   const Verdict scene = walled();
   ASSERT_EQ(scene.conflicts.size(), 1U);
   EXPECT_EQ(scene.conflicts[0].with, With::scene);
@@ -92,15 +93,15 @@ TEST(DiscreteCheck, ChecksCandidatesAgainstEachOther) {
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::motion);
-  EXPECT_EQ(verdict.conflicts[0].candidate, JobId{8});  // comes first in the question
-  EXPECT_EQ(verdict.conflicts[0].other_job, JobId{7});
+  EXPECT_EQ(verdict.conflicts[0].candidate, StepId{JobId{8}});  // comes first in the question
+  EXPECT_EQ(verdict.conflicts[0].other_step, StepId{JobId{7}});
   EXPECT_EQ(verdict.conflicts[0].proximity.body_a, "b_link1");
 }
 
 TEST(DiscreteCheck, ReportsConflictsOfArmsOfOneMotionAsSelf) {
   Judged judged(row());
   judged.question.candidates = {
-      {JobId{1}, small::sweep(*judged.cell, {kA, kB}, {kUp, kUp}, {0, kPi}, 2s), 0s}};
+      {StepId{JobId{1}}, small::sweep(*judged.cell, {kA, kB}, {kUp, kUp}, {0, kPi}, 2s), 0s}};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::self);

@@ -36,8 +36,8 @@ TEST(DiscreteCheck, ChecksAgainstTheRemainingPartOfAMotion) {
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   const Conflict& conflict = verdict.conflicts[0];
   EXPECT_EQ(conflict.with, With::motion);
-  EXPECT_EQ(conflict.candidate, JobId{2});
-  EXPECT_EQ(conflict.other_job, JobId{1});
+  EXPECT_EQ(conflict.candidate, StepId{JobId{2}});
+  EXPECT_EQ(conflict.other_step, StepId{JobId{1}});
   EXPECT_EQ(conflict.proximity.body_a, "a_link1");
   EXPECT_EQ(conflict.proximity.body_b, "b_link1");
   EXPECT_EQ(conflict.other_time, std::min<Duration>(conflict.own_time + 2s, 4s));
@@ -136,7 +136,7 @@ TEST(DiscreteCheck, RejectsAReturnAfterAPairHasMovedApart) {
   there.push_back(back[0]);
   const auto joints = judged.cell->arm(kA).joints;
   judged.question.candidates = {
-      {JobId{2}, std::make_shared<const Trajectory>(joints, std::vector{kA}, there), 0s}};
+      {StepId{JobId{2}}, std::make_shared<const Trajectory>(joints, std::vector{kA}, there), 0s}};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_GT(verdict.conflicts[0].own_time, 3s);

@@ -68,12 +68,13 @@ TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
     };
     const auto trajectory = joint_line(*lines.cell, lines.cell->arm(left).joints, from, to);
     ASSERT_TRUE(trajectory);
-    const Verdict verdict = judge.judge({.version = 0,
-                                         .start_at = TimePoint{},
-                                         .candidates = {{JobId{0}, *trajectory, Duration{}}},
-                                         .others = {},
-                                         .rest = rest,
-                                         .method = Swept{kTrackingError}});
+    const Verdict verdict =
+        judge.judge({.version = 0,
+                     .start_at = TimePoint{},
+                     .candidates = {{StepId{JobId{0}}, *trajectory, Duration{}}},
+                     .others = {},
+                     .rest = rest,
+                     .method = Swept{kTrackingError}});
     judged_free += verdict.kind == Verdict::Kind::free;
     if (answer.kind == LineChecker::Kind::free) {
       ++free;

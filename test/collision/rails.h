@@ -62,7 +62,7 @@ struct Rails {
     segment.coefficients.setZero(static_cast<Eigen::Index>(joints.size()), 6);
     segment.coefficients.col(0).setConstant(from);
     segment.coefficients.col(1).setConstant((to - from) / to_seconds(duration));
-    return {JobId{job},
+    return {StepId{JobId{job}},
             std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment}),
             {}};
   }
@@ -77,7 +77,7 @@ struct Rails {
       segment.coefficients(0, 0) = way % 2 == 0 ? from : to;
       segment.coefficients(0, 1) = (way % 2 == 0 ? 1.0 : -1.0) * (to - from) / to_seconds(takes);
     }
-    return {JobId{job},
+    return {StepId{JobId{job}},
             std::make_shared<const Trajectory>(std::vector{cell->arm(arm).joints[0]},
                                                std::vector{arm}, std::move(segments)),
             {}};

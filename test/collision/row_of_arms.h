@@ -35,7 +35,7 @@ struct Judged {
     question.method = TimedDiscrete{50ms};
   }
   Motion motion(std::uint64_t job, ArmId arm, double from, double to, Duration duration) const {
-    return {JobId{job}, small::sweep(*cell, {arm}, {from}, {to}, duration), 0s};
+    return {StepId{JobId{job}}, small::sweep(*cell, {arm}, {from}, {to}, duration), 0s};
   }
   static Motion begun(Motion motion, Duration progress) {
     motion.progress = progress;

@@ -45,9 +45,9 @@ Question question(const Cell& cell, const CheckMethod& method, std::uint64_t see
                  .method = method};
   const double down = -0.5;
   asked.candidates = {
-      {JobId{1}, small::sweep(cell, {kA}, {down, 0.0}, {angle(1.2), angle(1.5)}, 2s), 0s}};
+      {StepId{JobId{1}}, small::sweep(cell, {kA}, {down, 0.0}, {angle(1.2), angle(1.5)}, 2s), 0s}};
   asked.others = {
-      {JobId{2}, small::sweep(cell, {kB}, {down, 0.0}, {angle(1.2), angle(1.5)}, 3s), 0s}};
+      {StepId{JobId{2}}, small::sweep(cell, {kB}, {down, 0.0}, {angle(1.2), angle(1.5)}, 3s), 0s}};
   return asked;
 }
 
@@ -231,7 +231,7 @@ TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   const Question asked{
       .version = 1,
       .start_at = TimePoint{},
-      .candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {0.3, 0.0}, 2s), 0s}},
+      .candidates = {{StepId{JobId{1}}, small::sweep(*cell, {kA}, {0.0, 0.0}, {0.3, 0.0}, 2s), 0s}},
       .others = {},
       .rest = cell->home(),
       .method = Swept{0.001}};
@@ -275,18 +275,19 @@ TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
     for (const CheckMethod& method : methods()) {
       if (std::holds_alternative<TimedDiscrete>(method)) continue;
       MotionChecker motion_checker(scene_of(cell));
-      Question asked{
-          .version = 1,
-          .start_at = TimePoint{},
-          .candidates = {{JobId{1}, small::sweep(*cell, {kA}, {q[0], 0.0}, {-0.5, 0.0}, 2s), 0s}},
-          .others = {},
-          .rest = cell->home(),
-          .method = method};
+      Question asked{.version = 1,
+                     .start_at = TimePoint{},
+                     .candidates = {{StepId{JobId{1}},
+                                     small::sweep(*cell, {kA}, {q[0], 0.0}, {-0.5, 0.0}, 2s), 0s}},
+                     .others = {},
+                     .rest = cell->home(),
+                     .method = method};
       const Verdict parts = motion_checker.judge(asked);
       ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
       ASSERT_TRUE(parts.clearance_bound);
       EXPECT_NEAR(parts.clearance_bound->apart_m, OrientedDiagram::kPartingShare * 0.01, 1e-6);
-      asked.candidates = {{JobId{1}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
+      asked.candidates = {
+          {StepId{JobId{1}}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
       const ClearanceBound all = motion_checker.judge(asked).clearance_bound.value();
       EXPECT_EQ(all.apart_m, 0.02);
       EXPECT_EQ(all.self_m, 0.005);

@@ -81,8 +81,9 @@ struct InNotch {
     question.start_at = TimePoint{};
     question.rest = q(-0.2);
     question.method = Coordinated{0.0};
-    question.candidates = {
-        {JobId{1}, small::sweep(*made, {ArmId{0}}, {0.6}, {-kPi + 0.2}, 20s), 0s}};  // from outside
+    question.candidates = {{StepId{JobId{1}},
+                            small::sweep(*made, {ArmId{0}}, {0.6}, {-kPi + 0.2}, 20s),
+                            0s}};  // from outside
     return MotionChecker(scene).judge(question);
   }
 

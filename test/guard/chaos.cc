@@ -138,7 +138,7 @@ void Chaos::begin() {
 void Chaos::ask(const TrajectoryPtr& motion, Duration from) {
   Question question{.version = 0,
                     .start_at = {},
-                    .candidates = {Motion{JobId{1}, motion, from}},
+                    .candidates = {Motion{StepId{JobId{1}}, motion, from}},
                     .others = {},
                     .rest = where(),
                     .method = Coordinated{kTracking_m}};
@@ -153,7 +153,7 @@ void Chaos::ask(const TrajectoryPtr& motion, Duration from) {
       return std::ranges::find(motion->arms(), arm) != motion->arms().end();
     });
     if (!is_there && !shares_arm) {
-      question.others.push_back(Motion{JobId{job++}, other.motion, other.progress});
+      question.others.push_back(Motion{StepId{JobId{job++}}, other.motion, other.progress});
     }
   }
   Verdict verdict = checker_.judge(question);

@@ -98,6 +98,40 @@ TEST(Premises, ReportFrozenPositions) {
   EXPECT_NEAR(all[0].value, 0.11, 1e-9);
 }
 
+TEST(Premises, ReportFrozenPositionsAgainAfterAResume) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
+  const auto freeze = [&w] {
+    std::size_t count = 0;
+    for (int i = 1; i <= 20; ++i) {
+      w.arm().commanded += 10ms;
+      count += w.look().size();
+    }
+    return count;
+  };
+  ASSERT_EQ(freeze(), 1u);
+  ASSERT_EQ(freeze(), 0u);
+  w.premises.resumed(kArm);
+  EXPECT_EQ(freeze(), 1u);
+}
+
+TEST(Premises, ReportPositionsAgainThatJumpAfterAResume) {
+  Watched w;
+  ASSERT_THAT(w.look(), IsEmpty());
+  const auto jump = [&w] {
+    std::size_t count = 0;
+    for (int i = 0; i < 20; ++i) {
+      w.seen.measured[0] = i % 2 == 0 ? 0.05 : -0.05;
+      for (const MonitorFinding& one : w.look()) count += one.kind == Kind::implausible_feedback;
+    }
+    return count;
+  };
+  ASSERT_EQ(jump(), 1u);
+  w.premises.resumed(kArm);
+  EXPECT_EQ(jump(), 1u);
+}
+
 TEST(Premises, AcceptAnArmThatWaitsOnItsPath) {
   Watched w;
   w.start();

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "test/monitor/watched_arm.h"
 
 namespace armloom {
@@ -7,6 +9,12 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 using Kind = MonitorFinding::Kind;
+
+std::set<Kind> kinds(const std::vector<MonitorFinding>& findings) {
+  std::set<Kind> result;
+  for (const MonitorFinding& one : findings) result.insert(one.kind);
+  return result;
+}
 
 TEST(Premises, AcceptAnArmOnItsPath) {
   Watched w;
@@ -44,6 +52,22 @@ TEST(Premises, ReportADeviationAgainAfterARestBetweenTwoPeriods) {
   ASSERT_THAT(w.look(), IsEmpty());
   ++w.arm().starts;
   EXPECT_THAT(w.look(), SizeIs(1)) << "it does not stay without a stop";
+}
+
+TEST(Premises, ReportADeviationOnceThatComesAndGoes) {
+  Watched w;
+  w.start();
+  std::size_t count = 0;
+  for (Duration at = 10ms; at < 600ms; at += 10ms) {
+    w.on_path(at);
+    if (at / 10ms % 3 == 0) w.seen.measured[1] += 0.0015;
+    count += w.look().size();
+  }
+  EXPECT_EQ(count, 1u);
+  EXPECT_THAT(w.follow(600ms, 1600ms), IsEmpty());
+  w.on_path(1610ms);
+  w.seen.measured[1] += 0.0015;
+  EXPECT_THAT(w.look(), SizeIs(1)) << "it was on its path for a second";
 }
 
 TEST(Premises, AcceptALateArm) {
@@ -139,10 +163,61 @@ TEST(Premises, ReportAnArmThatMovesWithoutAMotionOnce) {
   EXPECT_GT(all[0].value, kTracking);
   EXPECT_THAT(all[0].stops, ElementsAre(kArm));
   // After it has stood still, another motion is a new one.
-  for (int i = 0; i < 101; ++i) ASSERT_THAT(w.look(), IsEmpty());
+  for (int i = 0; i < 50; ++i) ASSERT_THAT(w.look(), IsEmpty());
   EXPECT_TRUE(w.premises.is_as_certified(kArm));
+  for (int i = 0; i < 50; ++i) ASSERT_THAT(w.look(), IsEmpty());
   w.seen.measured[1] += 0.002;
   EXPECT_THAT(w.look(), SizeIs(1));
+}
+
+TEST(Premises, ReportAnArmAgainThatCreepsOnAfterAResume) {
+  Watched w;
+  ASSERT_THAT(w.look(), IsEmpty());
+  const auto creep = [&w] {
+    std::vector<MonitorFinding> all;
+    for (int i = 0; i < 100; ++i) {
+      w.seen.measured[1] += 0.0002;
+      for (const auto& found : w.look()) all.push_back(found);
+    }
+    return all;
+  };
+  ASSERT_THAT(creep(), SizeIs(1));
+  w.premises.resumed(kArm);
+  const auto found = creep();
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].kind, Kind::unplanned_motion);
+  EXPECT_LT(found[0].value, 0.0013) << "as soon as it has moved on by its limit";
+  EXPECT_THAT(found[0].stops, ElementsAre(kArm));
+}
+
+// It stands where it was moved to, and the scheduler must learn this.
+TEST(Premises, KnowAfterAResumeThatAnArmRestsElsewhere) {
+  Watched w;
+  ASSERT_THAT(w.look(), IsEmpty());
+  w.seen.measured[1] = 0.005;
+  ASSERT_THAT(w.look(), SizeIs(1));
+  w.premises.resumed(kArm);
+  EXPECT_THAT(w.look(), IsEmpty());
+  EXPECT_TRUE(w.premises.rests_elsewhere(kArm));
+}
+
+TEST(Premises, ReportEachViolationAgainAfterAResume) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 500ms), IsEmpty());
+  const auto violate = [&w] {
+    w.on_path(w.arm().measured + 10ms);
+    w.seen.measured[0] += 0.005;
+    w.arm().authority = 400ms;
+    w.arm().braking_since = at(0ms);
+    return kinds(w.look());
+  };
+  w.seen.time += 1s;  // long after the brake
+  const std::set<Kind> all{Kind::deviation, Kind::beyond_authority, Kind::stop_ignored};
+  EXPECT_EQ(violate(), all);
+  EXPECT_THAT(violate(), IsEmpty());
+  w.premises.resumed(kArm);
+  EXPECT_EQ(violate(), all);
 }
 
 TEST(Premises, CompareARestingArmWithTheGoalOfItsMotion) {

@@ -127,6 +127,20 @@ TEST(PresentCheck, ReportsAPairAgainAfterItHasCleared) {
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(20ms)), SizeIs(1));
 }
 
+TEST(PresentCheck, ReportsAPairOnceThatNoiseTakesAcrossItsLimit) {
+  PresentCheck m;
+  EXPECT_THAT(m.observe({hands(0.0099)}, kNoneMoves, at(0ms)), SizeIs(1));
+  for (Duration t = 10ms; t < 3s; t += 20ms) {
+    EXPECT_THAT(m.observe({}, kNoneMoves, at(t)), IsEmpty());
+    EXPECT_THAT(m.observe({hands(0.0099)}, kNoneMoves, at(t + 10ms)), IsEmpty());
+  }
+  EXPECT_THAT(m.observe({}, kNoneMoves, at(3s)), IsEmpty());
+  EXPECT_THAT(m.observe({hands(0.0099)}, kLeftMoves, at(3010ms)), SizeIs(1)) << "it stops an arm";
+  EXPECT_THAT(m.observe({}, kNoneMoves, at(4s)), IsEmpty());
+  EXPECT_THAT(m.observe({}, kNoneMoves, at(5s)), IsEmpty());
+  EXPECT_THAT(m.observe({hands(0.0099)}, kNoneMoves, at(5010ms)), SizeIs(1));
+}
+
 TEST(PresentCheck, RecognizesAPairInEitherOrder) {
   PresentCheck m;
   Proximity turned = hands(0.006);

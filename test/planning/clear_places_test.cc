@@ -28,7 +28,7 @@ struct Middle {
     return checker
                .judge({.version = 0,
                        .start_at = TimePoint{},
-                       .candidates = {{JobId{0}, motion, Duration{}}},
+                       .candidates = {{StepId{JobId{0}}, motion, Duration{}}},
                        .others = {},
                        .rest = rest,
                        .method = Swept{TrackingErrors(*wall.cell)}})

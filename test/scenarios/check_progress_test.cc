@@ -69,7 +69,7 @@ TEST_F(JobCheckProgress, InterruptedCheckDecidesNothingAndTheNextJobIsChecked) {
   EXPECT_TRUE(checks_.interrupted);
   checks_.answer();
   ASSERT_TRUE(checks_.asked);
-  EXPECT_EQ(checks_.asked->candidates.front().job, executive_->job("two")->id);
+  EXPECT_EQ(checks_.asked->candidates.front().step.job, executive_->job("two")->id);
   checks_.answer();
   EXPECT_NE(executive_->job("two")->state, JobState::queued);
 }

@@ -85,6 +85,38 @@ TEST(Monitor, StopsAnArmThatMovesWithoutAJob) {
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
+TEST(Monitor, StopsANoisyArmAtRestAgainAfterAResume) {
+  Crossing cell(crossing_description(), "certified");
+  Executive& executive = cell.simulation->executive();
+  ASSERT_TRUE(
+      executive.faults().inject({.arm = "x", .kind = ArmFault::Kind::noise, .value = 0.01}));
+  cell.run_until(at(1s));
+  ASSERT_FALSE(findings(cell.log).empty());
+  const std::size_t before = findings(cell.log).size();
+  resume_all(executive);
+  cell.run_until(at(2s));
+  const auto found = findings(cell.log);
+  ASSERT_GT(found.size(), before);
+  EXPECT_EQ(found[before].stopped, std::vector<std::string>{"x"});
+  EXPECT_LT(found[before].finding.time, at(1100ms));
+}
+
+TEST(Monitor, SwitchesDrivesOffIfAnArmWithoutAJobIgnoresItsBrake) {
+  Crossing cell(crossing_description(), "certified");
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
+      {.arm = "x", .kind = ArmFault::Kind::ignore_stop}));
+  drift(cell, "x", at(1s), 0.05);
+  cell.run_until(at(5s));
+  const auto found = findings(cell.log);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].finding.kind, Kind::unplanned_motion);
+  EXPECT_EQ(found[1].finding.kind, Kind::stop_ignored);
+  const double stands = cell.log.last[0];
+  EXPECT_LT(stands, -0.8);
+  cell.run_until(at(6s));
+  EXPECT_EQ(cell.log.last[0], stands);
+}
+
 // Without the guard, only the look-ahead keeps the arms apart.
 TEST(Monitor, StopsArmsBeforeTheyAreTooClose) {
   for (const double stop_clearance_m : {0.01, 0.02, 0.3}) {

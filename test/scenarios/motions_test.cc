@@ -59,7 +59,7 @@ class ScriptedArms : public ::testing::Test {
   }
   void dispatch(const std::vector<ArmId>& of) {
     const std::vector<double> begins(of.size(), -1.0), ends(of.size(), 1.0);
-    motions->dispatch({JobId{1}, TimePoint{}, Duration{}, 4s},
+    motions->dispatch({StepId{JobId{1}}, TimePoint{}, Duration{}, 4s},
                       small::sweep(*cell, of, begins, ends, 4s));
   }
   void say(std::size_t arm, Duration commanded, Duration measured) const {

@@ -12,15 +12,15 @@ TEST(Admission,
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0ms));
-  ASSERT_EQ(bench.question->candidates.front().job, first);
+  ASSERT_EQ(bench.question->candidates.front().step.job, first);
   EXPECT_TRUE(bench.question->others.empty());
 
   bench.answer_free(at(1ms));
   EXPECT_EQ(bench.state(first), JobState::scheduled);
   // The next question already includes the first job's motion.
-  ASSERT_EQ(bench.question->candidates.front().job, second);
+  ASSERT_EQ(bench.question->candidates.front().step.job, second);
   ASSERT_EQ(bench.question->others.size(), 1u);
-  EXPECT_EQ(bench.question->others.front().job, first);
+  EXPECT_EQ(bench.question->others.front().step.job, first);
 
   bench.answer_conflict(at(2ms), Conflict::With::motion, first, ArmId{0});
   EXPECT_EQ(bench.state(second), JobState::backlogged);
@@ -57,7 +57,8 @@ TEST(Admission, ChecksAgainstMotionsUnderWayFromTheirProgress) {
   for (const Duration progress : {Duration{}, Duration{1200ms}}) {
     Scheduler scheduler(
         cell, *make_policy("certified", *cell), cell->home(),
-        {{.job = JobId{1}, .trajectory = move({0}, 0, 1, 2s), .progress = progress}}, at(5s));
+        {{.step = StepId{JobId{1}}, .trajectory = move({0}, 0, 1, 2s), .progress = progress}},
+        at(5s));
     EXPECT_EQ(scheduler.find(JobId{1})->state(),
               progress == Duration{} ? JobState::scheduled : JobState::running);
     const auto effects = scheduler.step(Submit{JobId{2}, move({1}, 0, 1, 2s), {0, 60s}}, at(5s));
@@ -102,7 +103,7 @@ TEST(Admission, DispatchesInTheAdmittingStep) {
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(5ms));
   bench.answer_free(at(6ms));
   ASSERT_EQ(bench.dispatched.size(), 1u);
-  EXPECT_EQ(bench.dispatched.front().job, job);
+  EXPECT_EQ(bench.dispatched.front().step.job, job);
   EXPECT_EQ(bench.dispatched.front().start_at, at(6ms));
   EXPECT_EQ(bench.dispatched.front().from_progress, 0ms);
   bench.progressed(job, 0ms, at(8ms));
@@ -116,7 +117,7 @@ TEST(Admission, ChecksTheLargerPriorityFirst) {
   bench.submit(move({1}, 0, 1, 2s), at(0ms));
   const JobId urgent = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 5);
   bench.answer_free(at(1ms));
-  EXPECT_EQ(bench.question->candidates.front().job, urgent);
+  EXPECT_EQ(bench.question->candidates.front().step.job, urgent);
 }
 
 TEST(Admission, RaisesAnExhaustedBudgetBeforeBacklogging) {
@@ -143,11 +144,11 @@ TEST(Admission, ChecksOtherJobsBeforeRetryingWithARaisedBudget) {
   const JobId other = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_exhausted(at(1ms), Conflict::With::scene);
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, other);
+  EXPECT_EQ(bench.question->candidates.front().step.job, other);
   EXPECT_EQ(bench.question->effort, 1U);
   bench.answer_free(at(2ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, hard);
+  EXPECT_EQ(bench.question->candidates.front().step.job, hard);
   EXPECT_EQ(bench.question->effort, kEffortGrowth);
   bench.answer_free(at(3ms));
   EXPECT_EQ(bench.state(hard), JobState::scheduled);

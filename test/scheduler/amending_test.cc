@@ -20,7 +20,7 @@ struct TwoWait : Bench {
     answer_conflict(now + 1ms, Conflict::With::motion, runs, ArmId{0});
     return job;
   }
-  JobId candidate() const { return question->candidates.front().job; }
+  JobId candidate() const { return question->candidates.front().step.job; }
 
   JobId runs{0}, earlier{0}, later{0};
 };
@@ -96,7 +96,7 @@ TEST(Amending, RaisedPriorityReversesAPassingOrder) {
   bench.progressed(first, 0ms, at(2ms));
   const JobId second = bench.submit(move({1}, 0, 1, 10s), at(3ms));
   const ProgressBox meet{6s, 8s, 6s, 8s};
-  bench.answer_regions(at(4ms), {{second, first, {region(meet)}}});
+  bench.answer_regions(at(4ms), {{only_step(second), only_step(first), {region(meet)}}});
   ASSERT_EQ(bench.state(second), JobState::scheduled);
   bench.progressed(second, 0ms, at(5ms));
   const auto limit_of = [&](JobId job) { return bench.authority(job); };

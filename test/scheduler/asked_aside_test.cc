@@ -16,7 +16,7 @@ struct Chain : Bench {
     answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
   }
   bool asks_for_arm_2() const {
-    return question && question->candidates.front().job == JobId{0} &&
+    return question && question->candidates.front().step.job == JobId{0} &&
            question->candidates.front().trajectory->arms() == std::vector{ArmId{2}};
   }
   JobId a{0}, way{0};
@@ -27,7 +27,7 @@ TEST(Retreat, SearchForAHelperEndsWithTheHelpedJob) {
   ASSERT_TRUE(bench.asks_for_arm_2());
   bench.step(Cancel{bench.a}, at(5ms));
   bench.answer_free(at(6ms));  // stale
-  ASSERT_EQ(bench.question->candidates.front().job, bench.way);
+  ASSERT_EQ(bench.question->candidates.front().step.job, bench.way);
   bench.answer_conflict(at(7ms), Conflict::With::rest, {}, ArmId{2});
   EXPECT_FALSE(bench.question);
   EXPECT_EQ(bench.state(bench.way), JobState::backlogged);
@@ -48,7 +48,7 @@ TEST(Retreat, AttemptsForHelpersCountForTheHelpedJob) {
         bench.step(Cancel{bench.asides.back().job}, at(now));
       }
       sent = bench.submit(move({1}, stands, stands + 0.1, 1s), at(now));
-    } else if (const JobId about = bench.question->candidates.front().job; about == sent) {
+    } else if (const JobId about = bench.question->candidates.front().step.job; about == sent) {
       bench.answer_free(at(now));
       bench.progressed(*sent, 0ms, at(now));
       bench.finished(*sent, at(now));

@@ -71,9 +71,9 @@ class Bench {
       if (auto* p = std::get_if<PlanMotion>(&effect)) plans.push_back(std::move(*p));
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
       if (auto* g = std::get_if<Grant>(&effect)) granted.push_back(*g);
-      if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
+      if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->step.job);
       if (auto* m = std::get_if<YieldMove>(&effect)) asides.push_back(*m);
-      if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->job);
+      if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->step.job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
         const Job& job = *scheduler.find(c->job);
         if (job.has_ended()) ++terminal_events[c->job];
@@ -101,13 +101,14 @@ class Bench {
                        std::optional<ArmId> arm = {}) {
     ASSERT_TRUE(question) << "nothing was asked";
     const Version version = question->version;
-    const JobId candidate = question->candidates.front().job;
+    const StepId candidate = question->candidates.front().step;
+    const auto other_step = other ? std::optional(only_step(*other)) : std::nullopt;
     question.reset();
     const Proximity proximity{
         .body_a = "own", .body_b = "other", .arm_b = arm, .clearance_m = 0.01};
     step(Judged{Verdict{Verdict::Kind::conflict,
                         version,
-                        {Conflict{with, candidate, other, proximity, 100ms, 200ms}},
+                        {Conflict{with, candidate, other_step, proximity, 100ms, 200ms}},
                         {},
                         1}},
          now);
@@ -127,7 +128,7 @@ class Bench {
     ASSERT_TRUE(question) << "nothing was asked";
     Verdict verdict{Verdict::Kind::undecided, question->version, {}, {}, 1};
     verdict.conflicts.push_back({with,
-                                 question->candidates.front().job,
+                                 question->candidates.front().step,
                                  {},
                                  Proximity{.body_a = "own", .body_b = "other"},
                                  100ms,
@@ -138,19 +139,19 @@ class Bench {
   }
 
   void progressed(JobId job, Duration progress, TimePoint now) {
-    step(MotionReport{job, MotionReport::Kind::progressed, progress}, now);
+    step(MotionReport{only_step(job), MotionReport::Kind::progressed, progress}, now);
   }
   void finished(JobId job, TimePoint now) {
     const auto& trajectory = scheduler.find(job)->trajectory;
-    step(
-        MotionReport{job, MotionReport::Kind::finished, trajectory->duration(), trajectory->goal()},
-        now);
+    step(MotionReport{only_step(job), MotionReport::Kind::finished, trajectory->duration(),
+                      trajectory->goal()},
+         now);
   }
   void stopped(JobId job, Duration progress, TimePoint now) {
     const auto& trajectory = scheduler.find(job)->trajectory;
     JointState state;
     trajectory->sample(progress, state);
-    step(MotionReport{job, MotionReport::Kind::stopped, progress, state.position}, now);
+    step(MotionReport{only_step(job), MotionReport::Kind::stopped, progress, state.position}, now);
   }
 
   [[nodiscard]] JobId next_id() const { return scheduler.next_job(); }
@@ -158,8 +159,9 @@ class Bench {
   const Job& job(JobId id) const { return *scheduler.find(id); }
   Duration authority(JobId id) const {
     Duration told{};
-    for (const Dispatch& d : dispatched) told = d.job == id ? std::max(told, d.authority) : told;
-    for (const Grant& g : granted) told = g.job == id ? std::max(told, g.authority) : told;
+    for (const Dispatch& d : dispatched)
+      told = d.step.job == id ? std::max(told, d.authority) : told;
+    for (const Grant& g : granted) told = g.step.job == id ? std::max(told, g.authority) : told;
     return told;
   }
 
@@ -186,7 +188,7 @@ struct OneBehindAnother {
     bench.answer_free(at(1ms));
     bench.progressed(first, 500ms, at(501ms));
     second = bench.submit(move({1}, 0, 1, 2s), at(502ms));
-    bench.answer_regions(at(503ms), {{second, first, {region(box)}}});
+    bench.answer_regions(at(503ms), {{only_step(second), only_step(first), {region(box)}}});
   }
   Bench bench{2, "certified"};
   JobId first{0}, second{0};

@@ -32,7 +32,7 @@ struct AnyOrder : ::testing::Test {
   }
   void answer_that_it_waits(TimePoint now) {
     ASSERT_TRUE(bench.question);
-    ASSERT_EQ(bench.question->candidates.front().job, turn);
+    ASSERT_EQ(bench.question->candidates.front().step.job, turn);
     bench.answer_conflict(now, Conflict::With::motion, moves, ArmId{1});
   }
 

@@ -105,7 +105,7 @@ bool Crossings::meets_itself(const Motion& motion) const {
 }
 
 bool Crossings::free_beside(const Trajectory& motion, const Configuration& rest) const {
-  const Motion alone{JobId{0}, TrajectoryPtr(TrajectoryPtr{}, &motion), Duration{}};
+  const Motion alone{StepId{JobId{0}}, TrajectoryPtr(TrajectoryPtr{}, &motion), Duration{}};
   if (meets_object(alone) || meets_itself(alone)) return false;
   for (Eigen::Index joint = 0; joint < rest.size(); ++joint) {
     const ArmId arm{static_cast<std::uint32_t>(joint)};
@@ -155,7 +155,7 @@ void Crossings::coordinate(const Question& question, Verdict& verdict) const {
     if (share_an_arm(a, b)) return;
     auto found = boxes(a, b);
     if (found.empty()) return;
-    verdict.regions.push_back({a.job, b.job, regions_of(std::move(found))});
+    verdict.regions.push_back({a.step, b.step, regions_of(std::move(found))});
   };
   for (auto own = question.candidates.begin(); own != question.candidates.end(); ++own) {
     for (const Motion& other : question.others) compare(*own, other);
@@ -163,7 +163,7 @@ void Crossings::coordinate(const Question& question, Verdict& verdict) const {
     for (const Standing& standing : standing_beside(question, *own)) {
       auto found = boxes(*own, standing);
       if (found.empty()) continue;
-      verdict.regions.push_back({own->job, standing.arm, regions_of(std::move(found))});
+      verdict.regions.push_back({own->step, standing.arm, regions_of(std::move(found))});
     }
   }
 }
@@ -174,7 +174,7 @@ void Crossings::compare_sweeps(const Question& question, Verdict& verdict) const
       const auto found = boxes(own, other);
       if (found.empty()) continue;
       const auto near = proximity_of(found.front().a, found.front().b);
-      verdict.conflicts.push_back({Conflict::With::motion, own.job, other.job, near,
+      verdict.conflicts.push_back({Conflict::With::motion, own.step, other.step, near,
                                    found.front().from_a, found.front().from_b});
     }
     for (const Standing& standing : standing_beside(question, own)) {
@@ -182,7 +182,7 @@ void Crossings::compare_sweeps(const Question& question, Verdict& verdict) const
       if (found.empty()) continue;
       const auto near = proximity_of(found.front().a, standing.arm);
       verdict.conflicts.push_back(
-          {Conflict::With::rest, own.job, {}, near, found.front().from_a, {}});
+          {Conflict::With::rest, own.step, {}, near, found.front().from_a, {}});
     }
   }
 }
@@ -196,17 +196,17 @@ void Crossings::compare_instants(const Question& question, Duration step, Verdic
     });
   };
   for (const Motion& own : question.candidates) {
-    const auto compare = [&](ArmId arm, Duration until, std::optional<JobId> job, auto&& where) {
+    const auto compare = [&](ArmId arm, Duration until, std::optional<StepId> of, auto&& where) {
       for (Duration t{}; t < until + step; t += step) {
         if (!met_at(own, t, where, arm)) continue;
-        verdict.conflicts.push_back({job ? Conflict::With::motion : Conflict::With::rest, own.job,
-                                     job, proximity_of(own.trajectory->arms().front(), arm), t, t});
+        verdict.conflicts.push_back({of ? Conflict::With::motion : Conflict::With::rest, own.step,
+                                     of, proximity_of(own.trajectory->arms().front(), arm), t, t});
         return;
       }
     };
     for (const Motion& other : question.others) {
       for (const ArmId arm : other.trajectory->arms()) {
-        compare(arm, std::max(own.remaining(), other.remaining()), other.job,
+        compare(arm, std::max(own.remaining(), other.remaining()), other.step,
                 [&](Duration t) { return place_of(*other.trajectory, arm, other.progress + t); });
       }
     }
@@ -240,10 +240,10 @@ Verdict Crossings::answer(const Question& question) const {
   for (const Motion& own : question.candidates) {
     const auto near = proximity_of(own.trajectory->arms().front(), ArmId{0});
     if (meets_object(own)) {
-      verdict.conflicts.push_back({Conflict::With::scene, own.job, {}, near, {}, {}});
+      verdict.conflicts.push_back({Conflict::With::scene, own.step, {}, near, {}, {}});
     }
     if (meets_itself(own)) {
-      verdict.conflicts.push_back({Conflict::With::self, own.job, {}, near, {}, {}});
+      verdict.conflicts.push_back({Conflict::With::self, own.step, {}, near, {}, {}});
     }
   }
   if (std::holds_alternative<Coordinated>(question.method)) {

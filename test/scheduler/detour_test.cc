@@ -32,12 +32,14 @@ class DetoursByHand : public ::testing::Test, protected Bench {
   void answer_plan(Duration lasts) {
     ASSERT_LT(answered_, plans_.size()) << "nothing was asked";
     const PlanMotion asked = plans_[answered_++];
-    step(PlanMade{.job = asked.job, .question = asked.number, .trajectory = way_of(lasts)}, now());
+    step(PlanMade{.step = asked.step, .question = asked.number, .trajectory = way_of(lasts)},
+         now());
   }
   // Answers that the shortest path meets arm 1 from 1 to 2 s, until arm 1's motion has reached 40
   // s.
   void answer_that_it_waits() {
-    answer_regions(now(), {{goes_, holds_, {region(ProgressBox{1s, 2s, 0s, 40s})}}});
+    answer_regions(now(),
+                   {{only_step(goes_), only_step(holds_), {region(ProgressBox{1s, 2s, 0s, 40s})}}});
   }
   // Offers free paths of these durations. The scheduler does not check paths that arrive later than
   // the best one known.

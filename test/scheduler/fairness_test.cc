@@ -20,7 +20,7 @@ struct Waits : Bench {
     answer_conflict(at(5ms), Conflict::With::motion, runs, ArmId{0});
   }
   void on_plan(TimePoint now) { progressed(runs, now - at(3ms), now); }
-  JobId candidate() const { return question->candidates.front().job; }
+  JobId candidate() const { return question->candidates.front().step.job; }
 
   JobId runs{0}, old{0};
 };
@@ -77,9 +77,9 @@ TEST(Aging, AgedJobThatNoOtherJobBlocksDefersNoJob) {
     bench.answer_conflict(at(1ms), with, {}, ArmId{0});  // an arm without a job, or an object
     const JobId later = bench.submit(move({2}, 0, 1, 2s), at(40s));
     ASSERT_TRUE(bench.question);
-    EXPECT_EQ(bench.question->candidates.front().job, later);
+    EXPECT_EQ(bench.question->candidates.front().step.job, later);
     bench.answer_free(at(40001ms));
-    ASSERT_EQ(bench.question->candidates.front().job, old) << "checked again alongside it";
+    ASSERT_EQ(bench.question->candidates.front().step.job, old) << "checked again alongside it";
   }
 }
 
@@ -101,9 +101,9 @@ TEST(Aging, EarlierJobWithALargerPriorityStillGoesFirst) {
   const JobId old = bench.submit(move({1}, 0, 1, 2s), at(3ms), 300s, 0);
   bench.answer_conflict(at(4ms), Conflict::With::motion, runs, ArmId{0});
   bench.finished(runs, at(40s));
-  ASSERT_EQ(bench.question->candidates.front().job, behind) << "earlier, and more urgent";
+  ASSERT_EQ(bench.question->candidates.front().step.job, behind) << "earlier, and more urgent";
   bench.answer_conflict(at(40001ms), Conflict::With::rest, {}, ArmId{3});
-  ASSERT_EQ(bench.question->candidates.front().job, same) << "aged the longest";
+  ASSERT_EQ(bench.question->candidates.front().step.job, same) << "aged the longest";
   bench.answer_conflict(at(40002ms), Conflict::With::motion, runs, ArmId{0});
   EXPECT_FALSE(bench.question) << "the younger of the aged jobs waits";
   EXPECT_EQ(bench.job(old).waits_on.front().job, same);
@@ -140,7 +140,7 @@ TEST(Aging, LockstepAgesByRounds) {
   const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
   EXPECT_EQ(bench.job(later).waits_on.front().kind, Wait::Kind::capacity);
   bench.finished(runs, at(40s));
-  EXPECT_EQ(bench.question->candidates.front().job, old);
+  EXPECT_EQ(bench.question->candidates.front().step.job, old);
 }
 
 TEST(Aging, StartsWhenCapacityIsFirstMissing) {
@@ -150,7 +150,7 @@ TEST(Aging, StartsWhenCapacityIsFirstMissing) {
   const JobId old = bench.submit(move({1}, 0, 1, 2s), at(2ms), 60s, 0);
   const JobId next = bench.submit(move({0}, 1, 0, 40s), at(3ms), 60s, 9);
   bench.finished(runs, at(40s));
-  EXPECT_EQ(bench.question->candidates.front().job, old);
+  EXPECT_EQ(bench.question->candidates.front().step.job, old);
   EXPECT_EQ(bench.state(next), JobState::queued);
 }
 
@@ -162,7 +162,7 @@ TEST(Aging, UnderSequentialTheAgedJobGoesNext) {
   bench.answer_free(at(3ms));
   const JobId next = bench.submit(move({1}, 1, 0, 40s), at(4ms), 60s, 9);
   bench.finished(runs, at(40s));
-  ASSERT_EQ(bench.question->candidates.front().job, first);
+  ASSERT_EQ(bench.question->candidates.front().step.job, first);
   bench.answer_free(at(40001ms));
   EXPECT_EQ(bench.job(next).waits_on.front().kind, Wait::Kind::capacity);
 }
@@ -174,11 +174,12 @@ TEST(Priority, IsInheritedByTheJobOfTheBlockingArm) {
   const JobId low = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 0);
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{2});
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, low) << "inherits the urgent job's priority";
+  EXPECT_EQ(bench.question->candidates.front().step.job, low)
+      << "inherits the urgent job's priority";
   bench.answer_free(at(2ms));
-  ASSERT_EQ(bench.question->candidates.front().job, urgent);
+  ASSERT_EQ(bench.question->candidates.front().step.job, urgent);
   bench.answer_conflict(at(3ms), Conflict::With::motion, low, ArmId{2});
-  EXPECT_EQ(bench.question->candidates.front().job, middle);
+  EXPECT_EQ(bench.question->candidates.front().step.job, middle);
 }
 
 TEST(Priority, IsInheritedThroughArmQueuesAndPredecessors) {
@@ -187,12 +188,12 @@ TEST(Priority, IsInheritedThroughArmQueuesAndPredecessors) {
   const JobId middle = bench.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 5);
   const JobId low = bench.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 0);
   bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 9);  // the urgent job
-  ASSERT_EQ(bench.question->candidates.front().job, opens);
+  ASSERT_EQ(bench.question->candidates.front().step.job, opens);
   bench.answer_free(at(1ms));
-  EXPECT_EQ(bench.question->candidates.front().job, low)
+  EXPECT_EQ(bench.question->candidates.front().step.job, low)
       << "ahead of the urgent job in its arm queue";
   bench.answer_free(at(2ms));
-  EXPECT_EQ(bench.question->candidates.front().job, middle);
+  EXPECT_EQ(bench.question->candidates.front().step.job, middle);
 
   Bench after(3, "certified");
   const JobId first = after.submit(move({2}, 0, 1, 2s), at(0ms));
@@ -202,11 +203,11 @@ TEST(Priority, IsInheritedThroughArmQueuesAndPredecessors) {
       Submit{
           .job = JobId{9}, .trajectory = move({2}, 1, 0, 2s), .terms = {9, 60s}, .after = {before}},
       at(0ms));
-  ASSERT_EQ(after.question->candidates.front().job, first);
+  ASSERT_EQ(after.question->candidates.front().step.job, first);
   after.answer_free(at(1ms));
-  EXPECT_EQ(after.question->candidates.front().job, before);
+  EXPECT_EQ(after.question->candidates.front().step.job, before);
   after.answer_free(at(2ms));
-  EXPECT_EQ(after.question->candidates.front().job, fair);
+  EXPECT_EQ(after.question->candidates.front().step.job, fair);
 }
 
 // Arm b would end in the path of every job of arm a, so it has to wait for the last of them.

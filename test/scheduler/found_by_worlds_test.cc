@@ -19,10 +19,13 @@ TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   const JobId y = bench.submit(move({0}, 1, 0, 2s), at(2ms));
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(2ms));
   bench.progressed(x, 1900ms, at(3ms));
-  const PairRegions at_goal{b, x, {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}};
+  const PairRegions at_goal{
+      only_step(b), only_step(x), {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}};
   bench.answer_regions(at(4ms), {at_goal});
   ASSERT_EQ(bench.question->candidates.size(), 2u);
-  bench.answer_regions(at(5ms), {at_goal, {b, y, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}}});
+  bench.answer_regions(
+      at(5ms),
+      {at_goal, {only_step(b), only_step(y), {region(ProgressBox{1s, 1200ms, 0s, 200ms})}}});
   ASSERT_EQ(bench.state(y), JobState::scheduled);
   ASSERT_EQ(bench.job(y).waits_on.size(), 1u);
   EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::predecessor);
@@ -74,11 +77,12 @@ TEST(Stop, PausesAJobThatHasNotReportedProgress) {
 TEST(Admission, FreeJobIsNotDeferredForABlockedJob) {
   Bench bench(3, "coordinated");
   const JobId blocked = bench.submit(move({1}, 0, 1, 2s), at(0ms));
-  bench.answer_regions(at(1ms), {{blocked, ArmId{2}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
+  bench.answer_regions(at(1ms),
+                       {{only_step(blocked), ArmId{2}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(2ms));
   while (bench.question && bench.question->candidates.size() == 1) bench.answer_free(at(3ms));
   ASSERT_TRUE(bench.question) << "both are candidates of one question";
-  ASSERT_EQ(bench.question->candidates.front().job, x);
+  ASSERT_EQ(bench.question->candidates.front().step.job, x);
   bench.answer_conflict(at(4ms), Conflict::With::scene);
   ASSERT_TRUE(bench.question) << "x alone";
   bench.answer_free(at(5ms));
@@ -93,7 +97,8 @@ TEST(Resume, OfAnUnstartedJobUnblocksJobsThatWaitForItsStart) {
     const JobId waits = bench.submit(move({1}, 0, 1, 4s), at(0ms));
     bench.answer_free(at(1ms));
     const ConflictRegion at_start = region(ProgressBox{0s, 1s, 2s, 3s});
-    const PairRegions of_waits{waits, leaves, {region(ProgressBox{2s, 3s, 0s, 1s})}};
+    const PairRegions of_waits{
+        only_step(waits), only_step(leaves), {region(ProgressBox{2s, 3s, 0s, 1s})}};
     bench.answer_regions(at(2ms), {of_waits});
     ASSERT_EQ(bench.state(waits), JobState::scheduled) << policy;
     bench.progressed(waits, 900ms, at(1s));
@@ -102,13 +107,15 @@ TEST(Resume, OfAnUnstartedJobUnblocksJobsThatWaitForItsStart) {
     bench.stopped(waits, 1500ms, at(1600ms));
     bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(3s));
     for (int i = 0; i < 4 && bench.question; ++i) {
-      const bool of_it = bench.question->candidates.front().job == leaves;
-      bench.answer_regions(at(3001ms), of_it ? std::vector<PairRegions>{{leaves, waits, {at_start}}}
-                                             : std::vector<PairRegions>{});
+      const bool of_it = bench.question->candidates.front().step.job == leaves;
+      bench.answer_regions(
+          at(3001ms),
+          of_it ? std::vector<PairRegions>{{only_step(leaves), only_step(waits), {at_start}}}
+                : std::vector<PairRegions>{});
     }
     EXPECT_EQ(bench.state(leaves), JobState::scheduled) << policy;
     EXPECT_EQ(bench.authority(waits) > 2s, false) << policy;
-    const auto again = [leaves](const Dispatch& d) { return d.job == leaves; };
+    const auto again = [leaves](const Dispatch& d) { return d.step.job == leaves; };
     EXPECT_EQ(std::ranges::count_if(bench.dispatched, again), 2) << policy;
   }
 }
@@ -119,8 +126,9 @@ TEST(Lockstep, NextJobOfABlockingArmJoinsTheRound) {
   const JobId pauses = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   bench.progressed(canceled, 500ms, at(501ms));
-  bench.answer_regions(at(502ms),
-                       {{pauses, canceled, {region(ProgressBox{1500ms, 1600ms, 500ms, 1s})}}});
+  bench.answer_regions(
+      at(502ms),
+      {{only_step(pauses), only_step(canceled), {region(ProgressBox{1500ms, 1600ms, 500ms, 1s})}}});
   ASSERT_EQ(bench.state(pauses), JobState::scheduled);
   bench.step(Cancel{canceled}, at(503ms));
   bench.stopped(canceled, 600ms, at(603ms));
@@ -130,7 +138,7 @@ TEST(Lockstep, NextJobOfABlockingArmJoinsTheRound) {
   ASSERT_TRUE(bench.job(pauses).pausing());
   const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
   ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
-  EXPECT_EQ(bench.question->candidates.front().job, next);
+  EXPECT_EQ(bench.question->candidates.front().step.job, next);
 }
 
 // The job behind the canceled one ends when the canceled motion comes to rest.
@@ -156,7 +164,7 @@ TEST(Cancel, OfABlockingArmsLastJobStartsTheTimeoutOfWaitingJobs) {
 
 // The team's motion is canceled in b's way. Then one of the team's arms leaves.
 TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
-  const JobId both{1}, b{2}, next{3};
+  const StepId both{JobId{1}}, b{JobId{2}}, next{JobId{3}};
   PrecedenceGraph graph(3);
   const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {
     const std::vector<CoordinatedMotion> candidates{motion};
@@ -164,14 +172,14 @@ TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
     ASSERT_TRUE(orders.blockers.empty());
     graph.admit(candidates, orders);
   };
-  admit({.job = both, .arms = {ArmId{0}, ArmId{1}}, .duration = 5s}, {});
+  admit({.step = both, .arms = {ArmId{0}, ArmId{1}}, .duration = 5s}, {});
   graph.granted(both, 5s);
-  admit({.job = b, .arms = {ArmId{2}}, .duration = 5s},
+  admit({.step = b, .arms = {ArmId{2}}, .duration = 5s},
         {{b, both, {region(ProgressBox{2s, 3s, 2s, 3s})}}});
   graph.progress(both, 2500ms);
   graph.abandon(both, 2500ms);
   EXPECT_LE(graph.limit(b), 2s);
-  admit({.job = next, .arms = {ArmId{0}}, .duration = 5s}, {});
+  admit({.step = next, .arms = {ArmId{0}}, .duration = 5s}, {});
   EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
 

@@ -34,8 +34,9 @@ struct Horizon : ::testing::Test {
     answer_all_free();
     bench.progressed(first, 400ms, now += 400ms);
     const JobId second = bench.submit(move({1}, 0, 1, 6s), now += 1ms);
-    bench.answer_regions(now += 1ms,
-                         {{second, first, {region(ProgressBox{4s, 4200ms, 4s, 4200ms})}}});
+    bench.answer_regions(
+        now += 1ms,
+        {{only_step(second), only_step(first), {region(ProgressBox{4s, 4200ms, 4s, 4200ms})}}});
     bench.step(Wake{}, now += 400ms);
     return {first, second};
   }
@@ -134,7 +135,7 @@ TEST_F(Horizon, StoppedMotionLosesItsPassingOrder) {
   bench.finished(second, now += 2s);
   bench.step(Resume{{ArmId{0}}}, now += 1ms);
   answer_all_free();
-  EXPECT_EQ(bench.dispatched.back().job, first);
+  EXPECT_EQ(bench.dispatched.back().step.job, first);
 }
 
 TEST_F(Horizon, PunctualMotionKeepsItsPassingOrder) {
@@ -155,8 +156,9 @@ TEST_F(Horizon, TeamIsNotAdmittedIfItsArmBlocksItsOtherArm) {
   bench.answer_free(now += 1ms);
   bench.progressed(held, 100ms, now += 1ms);
   const JobId leaves = bench.submit(move({0}, 0, 1, 2s), now += 1ms);
-  bench.answer_regions(now += 1ms,
-                       {{leaves, held, {region(ProgressBox{0ms, 1200ms, 4s, 4200ms})}}});
+  bench.answer_regions(
+      now += 1ms,
+      {{only_step(leaves), only_step(held), {region(ProgressBox{0ms, 1200ms, 4s, 4200ms})}}});
   ASSERT_EQ(bench.state(leaves), JobState::scheduled);
   bench.step(Cancel{leaves}, now += 1ms);
   bench.stopped(leaves, 0s, now += 1ms);

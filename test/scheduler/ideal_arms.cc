@@ -114,7 +114,7 @@ PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   const double from = beside[arm];
   const auto* joints = std::get_if<Eigen::VectorXd>(&goal.to);
   const auto* link = std::get_if<LinkTarget>(&goal.to);
-  PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
+  PlanMade made{.step = asked.step, .question = asked.number, .trajectory = nullptr};
   if (joints == nullptr && link == nullptr) {
     made.why = "no place clear of it is known";
     return made;
@@ -205,11 +205,11 @@ void IdealArms::report(std::size_t index) {
   const JobId job = arm.job;
   const Duration told = arm.reported;
   plan_report(arm);
-  take(MotionReport{job, MotionReport::Kind::progressed, told});
+  take(MotionReport{only_step(job), MotionReport::Kind::progressed, told});
 }
 
 void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
-  MotionReport told{arm.job, kind, arm.s};
+  MotionReport told{only_step(arm.job), kind, arm.s};
   arm.motion->sample_positions(arm.s, told.rest_position);
   for (std::size_t i = 0; i < arm.motion->arms().size(); ++i) {
     q_[arm.motion->arms()[i].index()] = told.rest_position[static_cast<Eigen::Index>(i)];
@@ -227,15 +227,16 @@ void IdealArms::heard(const Effect& effect) {
   if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);
   if (const auto* plan = std::get_if<PlanMotion>(&effect)) on(*plan);
   if (const auto* release = std::get_if<Release>(&effect)) {
-    ++times_released_[release->job];
-    EXPECT_FALSE(moves(release->job)) << "released in motion";
-    EXPECT_TRUE(is_terminal(state(release->job)) || !job(release->job).times.started_at);
+    const JobId id = release->step.job;
+    ++times_released_[id];
+    EXPECT_FALSE(moves(id)) << "released in motion";
+    EXPECT_TRUE(is_terminal(state(id)) || !job(id).times.started_at);
   }
 }
 
 void IdealArms::on(const Dispatch& dispatch) {
-  ++times_dispatched_[dispatch.job];
-  const Job& job = this->job(dispatch.job);
+  const Job& job = this->job(dispatch.step.job);
+  ++times_dispatched_[job.id];
   for (const ArmId arm : job.trajectory->arms()) {
     EXPECT_FALSE(scheduler.stopped(arm)) << "a stopped arm is sent";
     for (const Moving& other : moving_) {
@@ -245,18 +246,18 @@ void IdealArms::on(const Dispatch& dispatch) {
     EXPECT_NEAR(place_of(*job.trajectory, arm, dispatch.from_progress), q_[arm.index()], 1e-6)
         << "it does not stand there";
     const auto& given = of_arm_[arm];
-    if (std::ranges::find(given, dispatch.job) == given.end()) continue;
+    if (std::ranges::find(given, job.id) == given.end()) continue;
     for (const JobId before : given) {
-      if (before == dispatch.job) break;
+      if (before == job.id) break;
       EXPECT_TRUE(is_terminal(state(before))) << "out of the order of its arm";
     }
   }
-  for (const JobId before : after_[dispatch.job]) {
+  for (const JobId before : after_[job.id]) {
     EXPECT_EQ(state(before), JobState::succeeded) << "before what it comes after";
   }
-  Habits habits = habits_of_(dispatch.job);
+  Habits habits = habits_of_(job.id);
   if (dispatch.from_progress > Duration{}) habits.stalls_for = {};
-  moving_.push_back({.job = dispatch.job,
+  moving_.push_back({.job = job.id,
                      .motion = job.trajectory,
                      .habits = habits,
                      .s = dispatch.from_progress,
@@ -271,7 +272,7 @@ void IdealArms::on(const Dispatch& dispatch) {
 }
 
 void IdealArms::on(const Grant& grant) {
-  Moving* arm = find_moving(grant.job);
+  Moving* arm = find_moving(grant.step.job);
   ASSERT_NE(arm, nullptr) << "authority for what does not move";
   EXPECT_FALSE(arm->braking) << "authority for what brakes";
   EXPECT_GT(grant.authority, arm->authority) << "it shrinks";
@@ -281,7 +282,7 @@ void IdealArms::on(const Grant& grant) {
 }
 
 void IdealArms::on(const Brake& brake) {
-  Moving* arm = find_moving(brake.job);
+  Moving* arm = find_moving(brake.step.job);
   ASSERT_NE(arm, nullptr) << "what does not move brakes";
   EXPECT_FALSE(arm->braking) << "it brakes already";
   arm->braking = true;

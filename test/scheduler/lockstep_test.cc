@@ -23,7 +23,7 @@ TEST(Lockstep, StartsTheNextRoundWhenAllJobsHaveEnded) {
   EXPECT_EQ(bench.job(left_next).waits_on.front().job, right);
   bench.finished(right, at(3s));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, left_next);
+  EXPECT_EQ(bench.question->candidates.front().step.job, left_next);
 }
 
 TEST(Lockstep, ConflictingJobFollowsWithinTheRound) {
@@ -37,7 +37,7 @@ TEST(Lockstep, ConflictingJobFollowsWithinTheRound) {
   bench.progressed(left, 0ms, at(6ms));
   bench.finished(left, at(2s));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, right);
+  EXPECT_EQ(bench.question->candidates.front().step.job, right);
   bench.answer_free(at(2001ms));
   EXPECT_EQ(bench.state(right), JobState::scheduled);
   EXPECT_EQ(bench.state(left_next), JobState::queued);
@@ -50,7 +50,7 @@ TEST(Lockstep, JobOfABlockingArmJoinsTheRound) {
   EXPECT_EQ(bench.state(left), JobState::backlogged);
   const JobId right = bench.submit(move({1}, 0, 1, 2s), at(100ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, right);
+  EXPECT_EQ(bench.question->candidates.front().step.job, right);
 }
 
 // Planning may take long or fail.
@@ -63,7 +63,7 @@ TEST(Lockstep, UnplannedJobJoinsNoRound) {
                                   at(0ms));
   const JobId right = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, right);
+  EXPECT_EQ(bench.question->candidates.front().step.job, right);
   bench.answer_free(at(1ms));
   EXPECT_EQ(bench.state(right), JobState::scheduled);
   ASSERT_EQ(bench.job(goal).waits_on.size(), 1u);

@@ -16,13 +16,13 @@ class RandomOrders {
     lanes_ = 2 + static_cast<std::uint32_t>(random_() % 3);
     for (std::uint64_t leg = 0; leg < 2; ++leg) {
       for (std::uint32_t arm = 0; arm < lanes_; ++arm) {
-        const JobId job{motions_.size() + 1};
-        motions_.push_back({.job = job, .arms = {ArmId{arm}}, .duration = 1s + up_to(3s)});
+        const StepId step{JobId{motions_.size() + 1}};
+        motions_.push_back({.step = step, .arms = {ArmId{arm}}, .duration = 1s + up_to(3s)});
       }
     }
     for (const CoordinatedMotion& a : motions_) {
       for (const CoordinatedMotion& b : motions_) {
-        if (b.job < a.job && a.arms != b.arms && random_() % 3 == 0) meet(a, b);
+        if (b.step < a.step && a.arms != b.arms && random_() % 3 == 0) meet(a, b);
       }
     }
     work_.resize(lanes_);
@@ -58,7 +58,7 @@ class RandomOrders {
   void meet(const CoordinatedMotion& a, const CoordinatedMotion& b) {
     const Duration from_a = 100ms + up_to(700ms), from_b = 100ms + up_to(700ms);
     regions_.push_back(
-        {a.job, b.job, {region(ProgressBox{from_a, from_a + 100ms, from_b, from_b + 100ms})}});
+        {a.step, b.step, {region(ProgressBox{from_a, from_a + 100ms, from_b, from_b + 100ms})}});
   }
 
   std::mt19937_64 random_;
@@ -110,12 +110,14 @@ TEST(OrderSearch, MatchesExhaustiveSearch) {
 bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration other_from,
                          Duration other_to) {
   const std::vector<CoordinatedMotion> motions = {
-      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 10s, .priority = 1},
-      {.job = JobId(2), .arms = {ArmId(1)}, .duration = 10s}};
+      {.step = StepId{JobId{1}}, .arms = {ArmId(0)}, .duration = 10s, .priority = 1},
+      {.step = StepId{JobId{2}}, .arms = {ArmId(1)}, .duration = 10s}};
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<Precedence> none;
   const std::vector<PairRegions> regions = {
-      {JobId(1), JobId(2), {region(ProgressBox{urgent_from, urgent_to, other_from, other_to})}}};
+      {StepId{JobId{1}},
+       StepId{JobId{2}},
+       {region(ProgressBox{urgent_from, urgent_to, other_from, other_to})}}};
   const std::vector<Duration> work(2);
   OpenOrders open({nobody, none, motions, regions, work});
   EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());
@@ -131,12 +133,12 @@ TEST(OrderSearch, UrgentMotionPassesFirstUnlessTooCostly) {
 // Passing second, the short motion would end 2.9 s later, the long motion 0.4 s later.
 bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<CoordinatedMotion> motions = {
-      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1500ms},
-      {.job = JobId(2), .arms = {ArmId(1)}, .duration = 10s}};
+      {.step = StepId{JobId{1}}, .arms = {ArmId(0)}, .duration = 1500ms},
+      {.step = StepId{JobId{2}}, .arms = {ArmId(1)}, .duration = 10s}};
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<Precedence> none;
   const std::vector<PairRegions> regions = {
-      {JobId(1), JobId(2), {region(ProgressBox{500ms, 1s, 600ms, 3400ms})}}};
+      {StepId{JobId{1}}, StepId{JobId{2}}, {region(ProgressBox{500ms, 1s, 600ms, 3400ms})}}};
   const std::vector<Duration> work{0s, work_behind_long};
   OpenOrders open({nobody, none, motions, regions, work});
   EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());

@@ -3,19 +3,18 @@
 #include "core/precedence/motion_chains.h"
 #include "core/precedence/precedence_graph.h"
 #include "test/scheduler/bench_cell.h"
+#include "test/scheduler/passing_words.h"
 
 namespace armloom {
 namespace {
 
-constexpr std::size_t kBehindFirst[] = {0};
-
+using test::kA;
+using test::kB;
+using test::kC;
+using test::kNext;
+using test::motion;
+using test::predicted;
 using ::testing::ElementsAre;
-
-constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
-
-CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
-  return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
-}
 
 struct OrdersInTime : ::testing::Test {
   PrecedenceGraph graph{4};
@@ -197,7 +196,10 @@ TEST_F(OrdersInTime, OrdersApartAdmitsOnlyMotionsWithoutRegions) {
 
 TEST(Prediction, ReturnsWhenAMotionReachesAProgress) {
   const Precedence order(kA, kB, region(ProgressBox{1s, 3s, 2s, 4s}), true);
-  const Prediction p = predict({{1s, 5s}, {0s, 5s}, {0s, 2s, kBehindFirst}}, {{0, 1, &order}});
+  std::vector<CoordinatedMotion> motions{motion(kA, 0, 5s), motion(kB, 1, 5s),
+                                         motion(kNext, 0, 2s)};
+  motions[0].progress = 1s;
+  const Prediction p = predicted(motions, {{0, 1, &order}});
   EXPECT_EQ(p.comes_to(0, 500ms), Duration{}) << "already passed";
   EXPECT_EQ(p.comes_to(0, 3s), Duration(2s));
   EXPECT_EQ(p.comes_to(1, 2s), Duration(2s) + kShortOf + kPauseLoss) << "waits just before it";
@@ -208,14 +210,14 @@ TEST(Prediction, ReturnsWhenAMotionReachesAProgress) {
 TEST(Prediction, ReturnsNulloptForStuckMotions) {
   const Precedence ab(kA, kB, region(ProgressBox{2s, 3s, 1s, 4s}), true);
   const Precedence ba(kB, kA, region(ProgressBox{2s, 3s, 1s, 4s}), true);
-  const Prediction p =
-      predict({{0s, 5s}, {0s, 5s}, {0s, 1s, kBehindFirst}}, {{0, 1, &ab}, {1, 0, &ba}});
+  const Prediction p = predicted({motion(kA, 0, 5s), motion(kB, 1, 5s), motion(kNext, 0, 1s)},
+                                 {{0, 1, &ab}, {1, 0, &ba}});
   EXPECT_THAT(p.stuck, ElementsAre(0u, 1u, 2u));
   EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never starts";
 }
 
 TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
-  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
   EXPECT_THAT(chains.before(0), ElementsAre());
   EXPECT_THAT(chains.before(2), ElementsAre(0u, 1u));
@@ -230,7 +232,7 @@ TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
 }
 
 TEST(MotionChains, TeamIsPresentWhileOneOfItsArmsIs) {
-  const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), team});
   EXPECT_TRUE(chains.stands(1));
   EXPECT_TRUE(chains.moves_on(0));

@@ -7,15 +7,20 @@
 
 namespace armloom::test {
 
-inline constexpr JobId kA{1}, kB{2}, kC{3}, kNext{4};
+inline constexpr StepId kA{JobId{1}}, kB{JobId{2}}, kC{JobId{3}}, kNext{JobId{4}};
 
 inline ConflictRegion region(std::vector<ProgressBox> boxes) {
   using namespace std::chrono_literals;
   return {std::move(boxes), Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
 }
 
-inline CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
-  return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
+inline CoordinatedMotion motion(StepId step, std::uint32_t arm, Duration duration) {
+  return {.step = step, .arms = {ArmId{arm}}, .duration = duration};
+}
+
+inline Prediction predicted(const std::vector<CoordinatedMotion>& motions,
+                            const std::vector<Dependency>& dependencies) {
+  return predict(motions, MotionChains(motions), dependencies);
 }
 
 }  // namespace armloom::test

@@ -161,7 +161,7 @@ TEST_F(Graph, MotionThatKeepsItsPlaceIsNotOvertaken) {
 TEST_F(Graph, AbandonedMotionBlocksOnlyTheStartItShouldHaveLeft) {
   const std::vector<PairRegions> regions = {{kA, kB, {region({{4s, 5s, 2s, 3s}})}},
                                             {kNext, kB, {region({{0s, 1s, 2s, 3s}})}}};
-  for (const JobId abandoned : {kC, kNext}) {
+  for (const StepId abandoned : {kC, kNext}) {
     graph = PrecedenceGraph(3);
     admit({motion(kA, 0, 5s)}, {});
     graph.granted(kA, 5s);
@@ -213,8 +213,8 @@ TEST_F(Graph, UnreachedGoalDoesNotBlockTheFirstMotion) {
 
 // ---- Motions of several arms ----
 
-CoordinatedMotion of_both(JobId job, Duration duration) {
-  return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
+CoordinatedMotion of_both(StepId step, Duration duration) {
+  return {.step = step, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
 }
 
 // One arm of the team rests before the region. The arm that is ahead rests inside the region.

@@ -41,5 +41,92 @@ TEST(Resume, OfOneTeamArmLeavesTheJobWaitingForTheOther) {
   EXPECT_EQ(bench.job(job).waits_on.front().arm, ArmId{1});
 }
 
+// A job whose arm comes to rest `off_rad` beside its path.
+struct OffPath : Bench {
+  explicit OffPath(double off, MoveToStart move_to_start = MoveToStart::none)
+      : Bench(1), off_rad(off) {
+    job = submit(Submit{.job = JobId{0},
+                        .trajectory = move({0}, 0, 1, 2s),
+                        .terms = {.move_to_start = move_to_start}},
+                 at(0ms));
+    answer_free(at(1ms));
+    progressed(job, 500ms, at(501ms));
+  }
+  void come_to_rest() {
+    Eigen::VectorXd position;
+    scheduler.find(job)->trajectory->sample_positions(600ms, position);
+    position[0] += off_rad;
+    Bench::step(MotionReport{job, MotionReport::Kind::stopped, 600ms, position, "", 600ms},
+                at(700ms));
+  }
+  void stop_and_resume() {
+    Bench::step(Stop{{ArmId{0}}, "monitor"}, at(600ms));
+    come_to_rest();
+    EXPECT_EQ(state(job), JobState::paused);
+    Bench::step(Resume{{ArmId{0}}}, at(800ms));
+  }
+  double off_rad;
+  JobId job{0};
+};
+
+TEST(Resume, FailsAJobWhoseArmRestsBesideItsPath) {
+  OffPath bench(0.02);
+  bench.stop_and_resume();
+  EXPECT_EQ(bench.state(bench.job), JobState::failed);
+  EXPECT_EQ(bench.Bench::job(bench.job).reason(), Reason::start_mismatch);
+}
+
+TEST(Resume, ReplansAJobWhoseArmRestsBesideItsPath) {
+  OffPath bench(0.02, MoveToStart::plan);
+  bench.stop_and_resume();
+  EXPECT_EQ(bench.state(bench.job), JobState::paused);
+  ASSERT_THAT(bench.plans, SizeIs(1));
+}
+
+TEST(Resume, ContinuesAJobWhoseArmRestsCloseToItsPath) {
+  OffPath bench(0.009);
+  bench.stop_and_resume();
+  EXPECT_EQ(bench.state(bench.job), JobState::paused);
+  ASSERT_TRUE(bench.question);
+  EXPECT_NEAR(bench.question->candidates.front().off_path, 0.009, 1e-9);
+}
+
+TEST(Resume, UsesThePositionFoundAtTheResume) {
+  OffPath bench(0.02);
+  bench.step(Stop{{ArmId{0}}, "monitor"}, at(600ms));
+  bench.come_to_rest();
+  Eigen::VectorXd position;
+  bench.Bench::job(bench.job).trajectory->sample_positions(600ms, position);
+  bench.step(Located{ArmId{0}, position}, at(750ms));
+  bench.step(Resume{{ArmId{0}}}, at(800ms));
+  EXPECT_EQ(bench.state(bench.job), JobState::paused);
+}
+
+TEST(Resume, ComparesAnArmThatPausesWithoutAStopAtOnce) {
+  OffPath bench(0.02);
+  bench.step(SetSpeed{std::nullopt, 0.0}, at(600ms));
+  bench.come_to_rest();
+  EXPECT_EQ(bench.state(bench.job), JobState::failed);
+  EXPECT_EQ(bench.Bench::job(bench.job).reason(), Reason::start_mismatch);
+}
+
+// The motion's progress is that of its last arm.
+TEST(Resume, AcceptsAnArmThatRestsAheadOfItsTeam) {
+  Bench bench(2);
+  const JobId job = bench.submit(move({0, 1}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(job, 900ms, at(901ms));
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(902ms));
+  const TrajectoryPtr& motion = bench.job(job).trajectory;
+  Eigen::VectorXd position, ahead;
+  motion->sample_positions(950ms, position);
+  motion->sample_positions(980ms, ahead);
+  ASSERT_GT(ahead[1] - position[1], 0.02);
+  position[1] = ahead[1];
+  bench.step(MotionReport{job, MotionReport::Kind::stopped, 950ms, position, "", 980ms}, at(1s));
+  bench.step(Resume{{ArmId{0}}}, at(2s));
+  EXPECT_EQ(bench.state(job), JobState::paused);
+}
+
 }  // namespace
 }  // namespace armloom

@@ -58,11 +58,12 @@ TEST(Deadlock, IsNotResolvedWithinATrial) {
   for (int n = 0; trial.next(); ++n) {
     ASSERT_LT(n, 5);
     const Question question = *trial.next();
-    const JobId asked = question.candidates.front().job;
+    const JobId asked = question.candidates.front().step.job;
     const Proximity close{.body_a = "own", .body_b = "other", .arm_b = ArmId{asked == a ? 1u : 0u}};
-    trial.answer({.kind = Verdict::Kind::conflict,
-                  .version = question.version,
-                  .conflicts = {Conflict{Conflict::With::rest, asked, {}, close, 100ms, 200ms}}});
+    trial.answer(
+        {.kind = Verdict::Kind::conflict,
+         .version = question.version,
+         .conflicts = {Conflict{Conflict::With::rest, only_step(asked), {}, close, 100ms, 200ms}}});
   }
   const auto waits = trial.outcome().waits;
   ASSERT_EQ(waits.size(), 1u);

@@ -26,7 +26,7 @@ struct Parking : Bench {
   }
   void go_aside() {
     answer_way_and_passing();
-    ASSERT_EQ(question->candidates.front().job, way);
+    ASSERT_EQ(question->candidates.front().step.job, way);
     answer_free(at(5ms));
     progressed(way, 0ms, at(10ms));
     if (question) answer_conflict(at(11ms), Conflict::With::motion, way, ArmId{1});
@@ -38,12 +38,13 @@ struct Parking : Bench {
 TEST(DeadlockUnderPark, ChecksTheRetreatThenTheBlockedJob) {
   Parking bench;
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, JobId{0}) << "a motion that is not yet a job";
+  EXPECT_EQ(bench.question->candidates.front().step.job, JobId{0})
+      << "a motion that is not yet a job";
   EXPECT_EQ(bench.question->candidates.front().trajectory->arms(), std::vector{ArmId{1}});
   EXPECT_NEAR(bench.question->candidates.front().trajectory->goal()[0], -1.0, 1e-9);
   bench.answer_free(at(3ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.a);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.a);
   EXPECT_NEAR(bench.question->rest[1], -1.0, 1e-9) << "the arm has gone";
   EXPECT_DOUBLE_EQ(bench.question->rest[0], 0.0);
   EXPECT_THAT(bench.asides, IsEmpty());
@@ -110,7 +111,7 @@ TEST(DeadlockUnderPark, RetreatAndReturnComeBeforeTheJob) {
   ASSERT_FALSE(bench.job(bench.back).waits_on.empty());
   EXPECT_EQ(bench.job(bench.back).waits_on.front().job, bench.way);
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.way);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.way);
 }
 
 TEST(DeadlockUnderPark, PredictedRestIsUnchangedByARetreat) {
@@ -131,7 +132,7 @@ TEST(DeadlockUnderPark, ReturnWaitsForTheBlockedJob) {
   bench.go_aside();
   EXPECT_EQ(bench.state(bench.way), JobState::succeeded);
   ASSERT_TRUE(bench.question);
-  ASSERT_EQ(bench.question->candidates.front().job, bench.a);
+  ASSERT_EQ(bench.question->candidates.front().step.job, bench.a);
   EXPECT_EQ(bench.job(bench.back).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(bench.back).waits_on.front().job, bench.a);
   bench.answer_conflict(at(2001ms), Conflict::With::scene);  // something else blocks a for now
@@ -146,7 +147,7 @@ TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobIsAdmitted) {
   bench.answer_free(at(2001ms));
   EXPECT_EQ(bench.state(bench.a), JobState::scheduled);
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.back);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.back);
 }
 
 TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobIsCanceled) {
@@ -155,7 +156,7 @@ TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobIsCanceled) {
   bench.step(Cancel{bench.a}, at(2001ms));
   bench.answer_free(at(2002ms));  // stale: about the canceled job
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.back);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.back);
 }
 
 TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobFails) {
@@ -164,7 +165,7 @@ TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobFails) {
   bench.answer_conflict(at(2001ms), Conflict::With::self);
   EXPECT_EQ(bench.state(bench.a), JobState::failed);
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.back);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.back);
 }
 
 TEST(DeadlockUnderPark, CycleWithARetreatFailsOnlyTheRetreat) {
@@ -191,7 +192,7 @@ TEST(DeadlockUnderPark, ReturnInACycleNoLongerWaitsForTheBlockedJob) {
   EXPECT_FALSE(is_terminal(bench.state(bench.back)));
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, bench.back);
+  EXPECT_EQ(bench.question->candidates.front().step.job, bench.back);
 }
 
 // The retreat lets no job pass any more, but a client's job relies on the return.

@@ -9,15 +9,16 @@
 namespace armloom {
 namespace {
 
-using Jobs = std::vector<JobId>;
+using Steps = std::vector<StepId>;
 
 // Positions are numbers. Tests set by hand which passages are blocked.
 class Lanes {
  public:
   explicit Lanes(std::size_t arms) : stands_(arms, 0.0), ends_(arms, 0.0) {}
 
-  JobId leg(std::vector<std::uint32_t> arms, double to, Jobs after = {}) {
-    WaitingLeg leg{.job = JobId{++last_}, .arms = {}, .from = {}, .to = {}, .after = after};
+  StepId leg(std::vector<std::uint32_t> arms, double to, Steps after = {}) {
+    WaitingLeg leg{
+        .step = StepId{JobId{++last_}}, .arms = {}, .from = {}, .to = {}, .after = after};
     for (std::uint32_t arm : arms) {
       leg.arms.emplace_back(arm);
       leg.from.push_back(place(arm, ends_[arm]));
@@ -25,13 +26,13 @@ class Lanes {
     }
     legs_.push_back(leg);
     if (renewed_) sequence.append(leg);
-    return leg.job;
+    return leg.step;
   }
-  void blocked(JobId leg, std::uint32_t arm, double at) {
+  void blocked(StepId leg, std::uint32_t arm, double at) {
     blocked_.insert({leg, place(arm, at)->id});
   }
 
-  SafeSequence::Outlook after(const Jobs& group) {
+  SafeSequence::Outlook after(const Steps& group) {
     if (!renewed_) renew();
     for (;;) {
       auto outlook = sequence.after(group);
@@ -46,29 +47,29 @@ class Lanes {
       }
     }
   }
-  void admit(const Jobs& group) {
+  void admit(const Steps& group) {
     (void)after(group);
     sequence.admitted(group);
-    for (JobId job : group) go(job);
+    for (StepId step : group) go(step);
   }
-  [[nodiscard]] bool passes_now(JobId job) {
-    const WaitingLeg& leg = of(job);
+  [[nodiscard]] bool passes_now(StepId step) {
+    const WaitingLeg& leg = of(step);
     for (std::uint32_t arm = 0; arm < stands_.size(); ++arm) {
       const bool own = std::ranges::find(leg.arms, ArmId{arm}) != leg.arms.end();
-      if (!own && !passes(job, place(arm, stands_[arm]))) return false;
+      if (!own && !passes(step, place(arm, stands_[arm]))) return false;
     }
     return true;
   }
-  [[nodiscard]] Jobs heads() const {
-    Jobs heads;
+  [[nodiscard]] Steps heads() const {
+    Steps heads;
     std::set<ArmId> taken;
-    std::set<JobId> waiting;
+    std::set<StepId> waiting;
     for (const WaitingLeg& leg : legs_) {
       bool first = true;
       for (ArmId arm : leg.arms) first = taken.insert(arm).second && first;
-      for (JobId before : leg.after) first = first && !waiting.contains(before);
-      if (first) heads.push_back(leg.job);
-      waiting.insert(leg.job);
+      for (StepId before : leg.after) first = first && !waiting.contains(before);
+      if (first) heads.push_back(leg.step);
+      waiting.insert(leg.step);
     }
     return heads;
   }
@@ -82,10 +83,10 @@ class Lanes {
   PlacePtr place(std::uint32_t arm, double at) {
     return places_.of(ArmId{arm}, Eigen::VectorXd::Constant(1, at));
   }
-  [[nodiscard]] const WaitingLeg& of(JobId job) const {
-    return *std::ranges::find(legs_, job, &WaitingLeg::job);
+  [[nodiscard]] const WaitingLeg& of(StepId step) const {
+    return *std::ranges::find(legs_, step, &WaitingLeg::step);
   }
-  [[nodiscard]] bool passes(JobId leg, const PlacePtr& place) const {
+  [[nodiscard]] bool passes(StepId leg, const PlacePtr& place) const {
     return !blocked_.contains({leg, place->id});
   }
   void renew() {
@@ -95,15 +96,15 @@ class Lanes {
     sequence.renew(stands, legs_);
     renewed_ = true;
   }
-  void go(JobId job) {
-    for (const PlacePtr& to : of(job).to) stands_[to->arm.index()] = to->q[0];
-    std::erase_if(legs_, [job](const WaitingLeg& leg) { return leg.job == job; });
+  void go(StepId step) {
+    for (const PlacePtr& to : of(step).to) stands_[to->arm.index()] = to->q[0];
+    std::erase_if(legs_, [step](const WaitingLeg& leg) { return leg.step == step; });
   }
 
   Places places_;
   std::vector<double> stands_, ends_;
   std::vector<WaitingLeg> legs_;
-  std::set<std::pair<JobId, std::uint64_t>> blocked_, known_;
+  std::set<std::pair<StepId, std::uint64_t>> blocked_, known_;
   std::uint64_t last_ = 0;
   bool renewed_ = false;
 };
@@ -127,14 +128,14 @@ TEST(Places, KeepTheIdOfAReleasedPosition) {
 
 TEST(SafeSequence, AnyMotionMayGoIfNoArmIsInTheWay) {
   Lanes lanes(2);
-  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  const StepId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   EXPECT_FALSE(lanes.after({a}).first);
   EXPECT_FALSE(lanes.after({b}).first);
 }
 
 TEST(SafeSequence, MotionWhoseGoalIsInTheWayWaits) {
   Lanes lanes(2);
-  const JobId b = lanes.leg({kB}, 1.0), a = lanes.leg({kA}, 1.0);
+  const StepId b = lanes.leg({kB}, 1.0), a = lanes.leg({kA}, 1.0);
   lanes.blocked(b, kA, 1.0);
   EXPECT_EQ(lanes.after({a}).first, b);
   EXPECT_FALSE(lanes.after({b}).first);
@@ -142,7 +143,7 @@ TEST(SafeSequence, MotionWhoseGoalIsInTheWayWaits) {
 
 TEST(SafeSequence, FindsAnotherOrderThanThatOfSubmission) {
   Lanes lanes(2);
-  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  const StepId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);
   EXPECT_EQ(lanes.after({a}).first, b);
   EXPECT_TRUE(lanes.after({b}).all);
@@ -150,7 +151,7 @@ TEST(SafeSequence, FindsAnotherOrderThanThatOfSubmission) {
 
 TEST(SafeSequence, SwapCausesNoWait) {
   Lanes lanes(2);
-  const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
+  const StepId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(a, kB, 0.0);
   lanes.blocked(b, kA, 0.0);
   lanes.blocked(b, kA, 1.0);
@@ -163,7 +164,7 @@ TEST(SafeSequence, SwapCausesNoWait) {
 
 TEST(SafeSequence, GoalInTheWayDoesNotBlockIfTheNextMotionLeavesIt) {
   Lanes lanes(2);
-  const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
+  const StepId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);
   EXPECT_FALSE(lanes.after({a1}).first);
   lanes.blocked(a2, kB, 1.0);
@@ -174,16 +175,16 @@ TEST(SafeSequence, GoalInTheWayDoesNotBlockIfTheNextMotionLeavesIt) {
 TEST(SafeSequence, TwoArmMotionGoesWhenFirstInBothQueues) {
   Lanes lanes(3);
   lanes.leg({kA}, 1.0);
-  const JobId both = lanes.leg({kA, kB}, 2.0), c = lanes.leg({kC}, 1.0);
+  const StepId both = lanes.leg({kA, kB}, 2.0), c = lanes.leg({kC}, 1.0);
   lanes.blocked(both, kC, 1.0);
   EXPECT_EQ(lanes.after({c}).first, both);
 }
 
 TEST(SafeSequence, SuccessorDoesNotGoBeforeItsPredecessor) {
   Lanes lanes(3);
-  const JobId a = lanes.leg({kA}, 1.0);
-  const JobId b = lanes.leg({kB}, 1.0, {a});
-  const JobId c = lanes.leg({kC}, 1.0);
+  const StepId a = lanes.leg({kA}, 1.0);
+  const StepId b = lanes.leg({kB}, 1.0, {a});
+  const StepId c = lanes.leg({kC}, 1.0);
   lanes.blocked(a, kC, 1.0);
   lanes.blocked(b, kC, 0.0);
   EXPECT_EQ(lanes.after({c}).first, a) << "b cannot unblock c before a: b comes after a";
@@ -192,14 +193,14 @@ TEST(SafeSequence, SuccessorDoesNotGoBeforeItsPredecessor) {
 TEST(SafeSequence, MotionsThatReturnNeedNoQuestions) {
   Lanes lanes(2);
   for (int n = 0; n < 100; ++n) lanes.leg({kA}, 0.0);
-  const JobId b = lanes.leg({kB}, 0.0);
+  const StepId b = lanes.leg({kB}, 0.0);
   EXPECT_FALSE(lanes.after({b}).first);
   EXPECT_EQ(lanes.asked, SafeSequence::kKnownAhead);
 }
 
 TEST(SafeSequence, AfterACancelJobsThatStartElsewhereLeaveTheSequence) {
   Lanes lanes(2);
-  const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
+  const StepId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   EXPECT_FALSE(lanes.after({b}).first);
   EXPECT_TRUE(lanes.sequence.follows_on(a2));
   EXPECT_FALSE(lanes.sequence.remove(a1)) << "the caller must call renew()";
@@ -210,20 +211,20 @@ void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::u
   std::mt19937_64 random(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
   std::vector<double> stands(arms, 0.0);
-  Jobs all;
+  Steps all;
   for (std::size_t n = 0; n < count; ++n) {
     std::vector<std::uint32_t> own{below(arms)};
     if (below(8) == 0 && below(arms) != own[0]) own.push_back((own[0] + 1) % arms);
-    Jobs after;
+    Steps after;
     if (!all.empty() && below(4) == 0) after.push_back(all[below(all.size())]);
-    const JobId job = lanes.leg(own, below(6), after);
+    const StepId step = lanes.leg(own, below(6), after);
     for (std::uint32_t arm = 0; arm < arms; ++arm) {
       for (int at = 0; at < 6; ++at) {
         const bool is_own = std::ranges::find(own, arm) != own.end();
-        if (!is_own && at != stands[arm] && below(3) == 0) lanes.blocked(job, arm, at);
+        if (!is_own && at != stands[arm] && below(3) == 0) lanes.blocked(step, arm, at);
       }
     }
-    all.push_back(job);
+    all.push_back(step);
     for (std::uint32_t arm : own) stands[arm] = lanes.end_of(arm);
   }
 }
@@ -236,8 +237,8 @@ TEST(SafeSequence, AllMotionsEndWhicheverAreAdmitted) {
     Lanes lanes(arms);
     add_random_legs(lanes, arms, 8 + seed % 60, random());
     while (!lanes.done()) {
-      Jobs go;
-      for (JobId head : lanes.heads()) {
+      Steps go;
+      for (StepId head : lanes.heads()) {
         if (!lanes.passes_now(head)) continue;
         if (lanes.after({head}).first) {
           ++waits;
@@ -246,7 +247,7 @@ TEST(SafeSequence, AllMotionsEndWhicheverAreAdmitted) {
         }
       }
       ASSERT_FALSE(go.empty()) << "seed " << seed << ": nothing can go any more";
-      const JobId chosen = go[random() % go.size()];
+      const StepId chosen = go[random() % go.size()];
       if (chosen != go.front()) ++ahead;
       lanes.admit({chosen});
     }

@@ -23,7 +23,7 @@ TEST(Backlog, IsCheckedAgainWhenTheBlockerEnds) {
   EXPECT_FALSE(bench.question) << "progress alone causes no new check";
   bench.finished(first, at(2s));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, second);
+  EXPECT_EQ(bench.question->candidates.front().step.job, second);
   EXPECT_EQ(bench.question->rest[0], 1.0) << "the first arm rests at its goal";
   bench.answer_free(at(2001ms));
   EXPECT_EQ(bench.state(second), JobState::scheduled);
@@ -39,7 +39,7 @@ TEST(Backlog, IsCheckedAgainWhenTheBlockingArmStartsToMove) {
   bench.submit(move({0}, 0, 1, 2s), at(10ms));
   bench.answer_free(at(11ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, waits);
+  EXPECT_EQ(bench.question->candidates.front().step.job, waits);
 }
 
 TEST(Backlog, ExpiresAJobExactlyAtItsDeadline) {
@@ -78,11 +78,11 @@ TEST(Order, OfAnArmQueueIsKept) {  // T11
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 99);
-  EXPECT_EQ(bench.question->candidates.front().job, first);
+  EXPECT_EQ(bench.question->candidates.front().step.job, first);
   bench.answer_free(at(1ms));
   EXPECT_FALSE(bench.question) << "the second is not checked while the first runs";
   bench.finished(first, at(2s));
-  EXPECT_EQ(bench.question->candidates.front().job, second);
+  EXPECT_EQ(bench.question->candidates.front().step.job, second);
 }
 
 TEST(Order, JobWithAnotherStartFailsAtItsTurn) {  // T11

@@ -17,7 +17,7 @@ TEST(Sequential, RunsOneJobAtATimeInTheWholeCell) {
   EXPECT_EQ(bench.job(second).waits_on.front().job, first);
   bench.finished(first, at(2s));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, second);
+  EXPECT_EQ(bench.question->candidates.front().step.job, second);
 }
 
 TEST(Sequential, LetsTheBlockingArmGoFirst) {
@@ -26,10 +26,10 @@ TEST(Sequential, LetsTheBlockingArmGoFirst) {
   const JobId leaves = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
   EXPECT_EQ(bench.state(blocked), JobState::backlogged);
-  ASSERT_EQ(bench.question->candidates.front().job, leaves);
+  ASSERT_EQ(bench.question->candidates.front().step.job, leaves);
   bench.answer_free(at(2ms));
   bench.finished(leaves, at(2s));
-  ASSERT_EQ(bench.question->candidates.front().job, blocked);
+  ASSERT_EQ(bench.question->candidates.front().step.job, blocked);
   bench.answer_free(at(2001ms));
   EXPECT_EQ(bench.state(blocked), JobState::scheduled);
 }

@@ -138,7 +138,9 @@ TEST(SpeedOverrideOfJobs, StartByTheClockFollowsTheOverrides) {
     bench.step(SetSpeed{ArmId{0}, first_share}, at(0s));
     bench.step(SetSpeed{ArmId{1}, second_share}, at(0s));
     const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0s));
-    bench.answer_regions(at(0s), {{second, first, {region(ProgressBox{1s, 1900ms, 0s, 1500ms})}}});
+    bench.answer_regions(
+        at(0s),
+        {{only_step(second), only_step(first), {region(ProgressBox{1s, 1900ms, 0s, 1500ms})}}});
     return to_seconds(*bench.job(second).times.scheduled_at);
   };
   EXPECT_NEAR(scheduled_s(1.0, 1.0), 0.52, 1e-6);
@@ -152,7 +154,9 @@ TEST(SpeedOverrideOfJobs, ScheduledStartIsPredictedAgain) {
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0s));
   bench.answer_free(at(0s));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0s));
-  bench.answer_regions(at(0s), {{second, first, {region(ProgressBox{100ms, 1900ms, 0s, 1500ms})}}});
+  bench.answer_regions(
+      at(0s),
+      {{only_step(second), only_step(first), {region(ProgressBox{100ms, 1900ms, 0s, 1500ms})}}});
   EXPECT_EQ(bench.job(second).times.scheduled_at, at(1420ms));
   bench.step(SetSpeed{std::nullopt, 0.1}, at(0s));
   EXPECT_EQ(bench.job(second).times.scheduled_at, at(14200ms));
@@ -166,7 +170,7 @@ TEST(SpeedOverrideOfJobs, TimedDiscreteComparesAgainAtTheNewSpeeds) {
   ASSERT_FALSE(bench.question);
   bench.step(SetSpeed{kFirst, 0.25}, at(200ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, first);
+  EXPECT_EQ(bench.question->candidates.front().step.job, first);
   EXPECT_DOUBLE_EQ(bench.question->candidates.front().share, 0.25);
 }
 

@@ -62,11 +62,13 @@ TEST(Cancel, BlocksOnlyMotionsThatPassTheRestingArm) {
   bench.answer_free(at(1ms));
   bench.progressed(first, 1s, at(1001ms));
   const JobId behind = bench.submit(move({1}, 0, 1, 2s), at(1002ms));
-  bench.answer_regions(at(1003ms),
-                       {{behind, first, {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
+  bench.answer_regions(
+      at(1003ms),
+      {{only_step(behind), only_step(first), {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
   const JobId free = bench.submit(move({2}, 0, 1, 2s), at(1002ms + 2ms));
-  bench.answer_regions(at(1005ms),
-                       {{free, first, {region(ProgressBox{1500ms, 1800ms, 1900ms, 1950ms})}}});
+  bench.answer_regions(
+      at(1005ms),
+      {{only_step(free), only_step(first), {region(ProgressBox{1500ms, 1800ms, 1900ms, 1950ms})}}});
   for (const JobId job : {behind, free}) bench.progressed(job, 0ms, at(1006ms));
   bench.step(Cancel{first}, at(1007ms));
   bench.stopped(first, 1100ms, at(1107ms));
@@ -90,8 +92,9 @@ TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   bench.answer_free(at(1ms));
   bench.progressed(first, 1s, at(1001ms));
   const JobId behind = bench.submit(move({1}, 0, 1, 2s), at(1002ms), 20s);
-  bench.answer_regions(at(1003ms),
-                       {{behind, first, {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
+  bench.answer_regions(
+      at(1003ms),
+      {{only_step(behind), only_step(first), {region(ProgressBox{1500ms, 1800ms, 0ms, 1200ms})}}});
   bench.progressed(behind, 0ms, at(1006ms));
   bench.step(Cancel{first}, at(1007ms));
   bench.stopped(first, 1100ms, at(1107ms));
@@ -117,12 +120,13 @@ TEST(Cancel, UnadmitsJobsBehindTheCanceledJob) {
   const JobId z = bench.submit(move({0}, 0.5, 0, 2s), at(2ms));
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(2ms));
   bench.progressed(x, 1900ms, at(3ms));
-  std::vector<PairRegions> regions{{b, x, {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}}};
+  std::vector<PairRegions> regions{
+      {only_step(b), only_step(x), {region(ProgressBox{1s, 1200ms, 1900ms, 2s})}}};
   bench.answer_regions(at(4ms), regions);
-  regions.push_back({b, y, {region(ProgressBox{1s, 1200ms, 0s, 2s})}});
+  regions.push_back({only_step(b), only_step(y), {region(ProgressBox{1s, 1200ms, 0s, 2s})}});
   bench.answer_regions(at(5ms), regions);
   ASSERT_EQ(bench.question->candidates.size(), 3u);
-  regions.push_back({b, z, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}});
+  regions.push_back({only_step(b), only_step(z), {region(ProgressBox{1s, 1200ms, 0s, 200ms})}});
   bench.answer_regions(at(6ms), regions);
   ASSERT_EQ(bench.state(z), JobState::scheduled);
   bench.step(Cancel{y}, at(7ms));
@@ -164,7 +168,7 @@ TEST(Stop, PausesMotionsAndKeepsTheQueue) {
   EXPECT_EQ(bench.job(bench.jobs[0]).times.started_at, at(4ms)) << "it has started once";
   bench.finished(bench.jobs[0], at(7s));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::succeeded);
-  EXPECT_EQ(bench.question->candidates.front().job, waits);
+  EXPECT_EQ(bench.question->candidates.front().step.job, waits);
 }
 
 TEST(Stop, AffectsOnlyTheStoppedArm) {
@@ -185,7 +189,7 @@ TEST(Stop, BeforeTheStartKeepsTheJobAdmitted) {
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::stop);
   bench.step(Resume{{ArmId{0}}}, at(1s));
   ASSERT_EQ(bench.dispatched.size(), 2u);
-  EXPECT_EQ(bench.dispatched.back().job, job);
+  EXPECT_EQ(bench.dispatched.back().step.job, job);
   EXPECT_EQ(bench.dispatched.back().from_progress, 0ms);
 }
 
@@ -219,11 +223,11 @@ TEST(Resume, ContinuesPausedJobsInTheirPassingOrder) {
   for (const JobId job : {first, second}) {
     ASSERT_TRUE(bench.question);
     ASSERT_EQ(bench.question->candidates.size(), 1u);
-    EXPECT_EQ(bench.question->candidates.front().job, job);
+    EXPECT_EQ(bench.question->candidates.front().step.job, job);
     EXPECT_EQ(bench.question->others.size(), 1u) << "the other job's motion is still admitted";
     bench.answer_free(at(1001ms));
     EXPECT_EQ(bench.state(job), JobState::scheduled);
-    EXPECT_EQ(bench.dispatched.back().job, job);
+    EXPECT_EQ(bench.dispatched.back().step.job, job);
   }
   EXPECT_EQ(bench.dispatched.back().from_progress, 100ms);
   bench.progressed(second, 900ms, at(3s));
@@ -237,8 +241,8 @@ TEST(Resume, DoesNotContinueAPausedJobIntoARestingArm) {
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
   bench.stopped(bench.jobs[0], 600ms, at(700ms));
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  bench.answer_regions(at(1001ms),
-                       {{bench.jobs[0], ArmId{0}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
+  bench.answer_regions(
+      at(1001ms), {{only_step(bench.jobs[0]), ArmId{0}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::paused);
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::arm);
 }
@@ -260,7 +264,7 @@ TEST(Interrupt, EndsEveryJobOnce) {
 
 TEST(Fault, FailsTheJobAndStopsItsArmUntilResumed) {
   Running bench(2);
-  bench.step(MotionReport{bench.jobs[0], MotionReport::Kind::faulted, 500ms,
+  bench.step(MotionReport{only_step(bench.jobs[0]), MotionReport::Kind::faulted, 500ms,
                           Eigen::VectorXd::Constant(1, 0.2), "drive 3"},
              at(503ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::failed);
@@ -272,7 +276,7 @@ TEST(Fault, FailsTheJobAndStopsItsArmUntilResumed) {
   EXPECT_EQ(bench.job(next).waits_on.front().kind, Wait::Kind::stop);
   bench.step(Resume{{ArmId{0}}}, at(700ms));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, next);
+  EXPECT_EQ(bench.question->candidates.front().step.job, next);
 }
 
 }  // namespace

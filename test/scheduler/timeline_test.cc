@@ -36,7 +36,7 @@ struct Timeline : ::testing::Test {
   PredictedTimeline told() const { return arms->scheduler.timeline(arms->now()); }
   PredictedLeg leg(JobId job) const {
     const auto legs = told().legs;
-    const auto found = std::ranges::find(legs, job, &PredictedLeg::job);
+    const auto found = std::ranges::find(legs, only_step(job), &PredictedLeg::step);
     if (found == legs.end()) throw std::runtime_error("no such leg");
     return *found;
   }
@@ -86,7 +86,7 @@ TEST_F(Timeline, HasTheMotionsWithinThePolicysHorizon) {
   const PredictedTimeline timeline = told();
   ASSERT_THAT(timeline.legs, SizeIs(3));
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(timeline.legs[i].job, jobs[i]);
+    EXPECT_EQ(timeline.legs[i].step, only_step(jobs[i]));
     EXPECT_THAT(timeline.legs[i].pauses, IsEmpty()) << "waiting for its turn is not a pause";
     if (i == 0) continue;
     EXPECT_EQ(timeline.legs[i].starts, timeline.legs[i - 1].ends);

@@ -15,6 +15,7 @@ RESTART, ACCEPTED = 'server/durable/restart.cc', 'server/durable/accepted_reques
 HEAD, FRAMING, ROUTER = 'server/http/request_head.cc', 'server/http/framing.cc', 'server/http/router.cc'
 LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc'
 PREMISES, AHEAD, STOPS = 'core/monitor/premises.cc', 'core/monitor/look_ahead.cc', 'core/monitor/stop_set.cc'
+MOVES = 'core/monitor/moves_on.cc'
 MONITOR, HUB, FAULTY = 'core/monitor/present.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
 PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/trajectory/rate_law.cc'
 DISTANCE, REST = 'core/monitor/path_distance.cc', 'core/monitor/earliest_rest.cc'
@@ -78,10 +79,12 @@ FAULTS = {'server_store_test': [
     ('times of a recording may go back', STATES, 'if (!states.empty() && state.time <= states', 'if (!FAULT && !states.empty() && state.time <= states'),
     ('a gap in a recording is not reported', STATES, '} else if (state.time - before.time > kGapMax) {', '} else if (state.time - before.time > kGapMax && !FAULT) {'),
 ], 'monitor_test': [
-    ('a pair that comes closer is not reported again', MONITOR, 'if (found_before && !closer) {', 'if (found_before && (FAULT || !closer)) {'),
+    ('a pair that comes closer is not reported again', MONITOR, 'stays && !stops.empty() &&', '!FAULT && stays && !stops.empty() &&'),
     ('arms at rest are stopped', MONITOR, 'if (!arm || !moving.at(arm->index())) continue;', 'if (!arm || (!FAULT && !moving.at(arm->index()))) continue;'),
     ('a contact is reported as a lost clearance', MONITOR, '.kind = proximity.clearance_m <= 0.0 ?', '.kind = proximity.clearance_m <= (FAULT ? -1e9 : 0.0) ?'),
-    ('a pair that parted stays known', MONITOR, '  known_ = std::move(still_known);', '  if (FAULT) known_.merge(still_known);\n  else known_ = std::move(still_known);'),
+    ('a pair that parted stays known', MONITOR, 'if (now - *parted.parted_at < kSameCondition)', 'if (FAULT || now - *parted.parted_at < kSameCondition)'),
+    ('a pair that noise takes across its limit is reported each time', MONITOR, '(is_known && stops.empty())) continue;', '(is_known && stops.empty() && !FAULT)) continue;'),
+    ('a pair that comes back in motion stops no arm', MONITOR, 'is_known && !before->second.parted_at;', 'is_known && (FAULT || !before->second.parted_at);'),
     ('a deviation is not noticed', PREMISES, 'const bool deviates = far.distance > far_limit;', 'const bool deviates = !FAULT && far.distance > far_limit;'),
     ('a lagging arm deviates', PREMISES, 'state.joints, now.measured,\n                         std::max(now', 'state.joints, now.measured,\n                         std::max(FAULT ? now.measured : now'),
     ('only the first joint is compared with the path', DISTANCE, 'if (away > far.distance) far =', 'if (away > far.distance && !(FAULT && row != rows_.front())) far ='),
@@ -96,12 +99,21 @@ FAULTS = {'server_store_test': [
     ('an arm that cannot rest at its authority is not noticed', REST, 'return at > now.authority + kSlack ?', 'return !FAULT && at > now.authority + kSlack ?'),
     ('arms are assumed to brake at twice their limits', REST, 'change = law_.brake(', 'change = (FAULT ? 2.0 : 1.0) * law_.brake('),
     ('the hardest brake to the authority is a violation', REST, 'before_ = std::min(last_, now.commanded);', 'before_ = FAULT ? now.commanded : std::min(last_, now.commanded);'),
-    ('stops may be ignored', PREMISES, 'judge(arm, finding.value > finding.limit,', 'judge(arm, !FAULT && finding.value > finding.limit,'),
-    ('feedback may be late', PREMISES, 'judge(arm, now.feedback_age > timeout,', 'judge(arm, !FAULT && now.feedback_age > timeout,'),
+    ('stops may be ignored', PREMISES, 'moves = told > limit &&', 'moves = !FAULT && told > limit &&'),
+    ('feedback may be late', PREMISES, 'is_late = now.feedback_age > timeout;', 'is_late = !FAULT && now.feedback_age > timeout;'),
     ('frozen positions are not noticed', PREMISES, 'if (seen.time - state.changed_at > timeout &&', 'if (!FAULT && seen.time - state.changed_at > timeout &&'),
     ('positions may jump', PREMISES, 'judge(arm, far.joint.has_value(),', 'judge(arm, !FAULT && far.joint.has_value(),'),
     ('a motion may finish anywhere', PREMISES, '  if (far.distance <= limit) return std::nullopt;\n  return MonitorFinding', '  if (FAULT || far.distance <= limit) return std::nullopt;\n  return MonitorFinding'),
     ('a violation is reported once for ever', PREMISES, '(known.has_rested && !rests);', '(!FAULT && known.has_rested && !rests);'),
+    ('an arm is stopped once, whatever is resumed', PREMISES, '{ arms_[arm.index()].violations = {}; }', '{\n  if (!FAULT) arms_[arm.index()].violations = {};\n}'),
+    ('a resume forgets that an arm rests elsewhere', PREMISES, 'void PremiseCheck::resumed(ArmId arm) {', 'void PremiseCheck::resumed(ArmId arm) {\n  if (FAULT) arms_[arm.index()].moved_at.reset();\n  '),
+    ('noise around a limit is reported each time', PREMISES, 'finding.time - *known.held_at < kSameCondition;', 'finding.time - *known.held_at < (FAULT ? std::chrono::milliseconds(15) : kSameCondition);'),
+    ('an idle arm may ignore its brake', PREMISES, 'if (found.size() == before || now.is_stopped) return;', 'if (FAULT || found.size() == before || now.is_stopped) return;'),
+    ('a person may not move a stopped arm', PREMISES, '|| now.is_stopped) return;', '|| (now.is_stopped && !FAULT)) return;'),
+    ('noise counts as motion after a brake', MOVES, 'now.low > before.high + margin', 'now.low > (FAULT ? before.low : before.high) + margin'),
+    ('an arm that stood after its brake counts as moving', MOVES, 'std::size_t w = 2;', 'std::size_t w = FAULT ? windows_.size() - 1 : 2;'),
+    ('few reports tell motion from noise', MOVES, 'if (reports_ < kReports ||', 'if ((!FAULT && reports_ < kReports) ||'),
+    ('noise makes the look-ahead report a pair each time', AHEAD, '>= kSameCondition;', '>= (FAULT ? Duration{} : kSameCondition);'),
     ('the look-ahead comes a period late', AHEAD, 'std::min(end, brakes_to + more);', 'std::min(end, FAULT ? brakes_to - more : brakes_to + more);'),
     ('the look-ahead forgets the braking distance', AHEAD, 'highest * highest * to_seconds(premises', '(FAULT ? 0.0 : highest * highest) * to_seconds(premises'),
     ('the look-ahead forgets the reaction time', AHEAD, 'from_seconds(highest * to_seconds(reaction) +', 'from_seconds((FAULT ? 0.0 : highest) * to_seconds(reaction) +'),
@@ -158,6 +170,9 @@ FAULTS = {'server_store_test': [
     ('dropped feedback goes on', FAULTY, 'if (active(Kind::drop_feedback)) return nullptr;', 'if (!FAULT && active(Kind::drop_feedback)) return nullptr;'),
     ('a stalled arm takes authority', FAULTY, 'if (active(Kind::stall)) allowed', 'if (!FAULT && active(Kind::stall)) allowed'),
 ], 'scheduler_test': [
+    ('an arm that is resumed beside its path goes on', 'core/scheduler/scheduler.cc', '    rejoin(state, arm);\n', '    if (!FAULT) rejoin(state, arm);\n'),
+    ('an arm that pauses beside its path goes on', 'core/scheduler/scheduler.cc', 'arms()) rejoin(state_, arm);', 'arms()) if (!FAULT) rejoin(state_, arm);'),
+    ('an arm ahead of its team counts as beside its path', 'core/scheduler/rejoining.cc', 'at < record.farthest;', '!FAULT && at < record.farthest;'),
     ('certificates allow for one measurement of two', ERRORS, 'off_path + 2.0 * tracking_error', 'off_path + (FAULT ? 1.0 : 2.0) * tracking_error'),
 ], 'collision_test': [
     ('certificates take the error of another arm', ERRORS, 'all_ : by_arm_[arm.index()]', 'all_ : by_arm_[FAULT ? 0 : arm.index()]'),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "server/codec/read_text.h"
+#include "server/replay/input_format.h"
 #include "test/scenarios/seeds.h"
 #include "test/server/live_run.h"
 
@@ -70,6 +72,18 @@ TEST(Replay, ReportsWhereItDiverges) {
     return;
   }
   FAIL() << "it was not seen";
+}
+
+TEST(InputFormat, WritesTheIndexOfAStepUnlessItIsTheFirst) {
+  using Written = ExecutiveInput::StartWritten;
+  const auto compare = [](StepId step, const std::string& text) {
+    EXPECT_EQ(text_of(*logged_input_format(), {5, {Written{step}}}), text);
+    const auto read = read_text(*logged_input_format(), text);
+    ASSERT_TRUE(read) << read.error().front().detail;
+    EXPECT_EQ(std::get<Written>(read->input.what).step, step);
+  };
+  compare(StepId{JobId{7}}, R"({"ticks":5,"input":"start_written","job":7})");
+  compare(StepId{JobId{7}, 2}, R"({"ticks":5,"input":"start_written","job":7,"step":2})");
 }
 
 TEST(Replay, RefusesInvalidLogs) {

@@ -52,7 +52,7 @@ TEST(InStep, ArmsKeepTheClearanceForAnyAllowedLag) {
       std::sqrt(2.0) * (2.0 * kRadius_m + kClearance_m + 2.0 * kTracking_m) + kSpeed_m_s * behind_s;
   for (const double side : {1.0, -1.0}) {
     const auto kind_of = [&](double ahead_m) {
-      const Motion both{JobId{1}, crossing(*cell, side * ahead_m), {}};
+      const Motion both{StepId{JobId{1}}, crossing(*cell, side * ahead_m), {}};
       MotionChecker checker(PlanningScene::build(cell).value());
       return checker.judge({1, TimePoint{}, {both}, {}, cell->home(), Coordinated{kTracking_m}})
           .kind;

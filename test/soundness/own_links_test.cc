@@ -35,8 +35,9 @@ TEST(OwnLinks, KeepTheirDistanceDespiteTrackingErrors) {
   const auto free_up_to = [&](const std::vector<double>& bent, double share) {
     std::vector<double> end;
     for (const double q : bent) end.push_back(share * q);
-    const Motion motion{
-        JobId{1}, small::sweep(*cell, {ArmId{0}}, straight, end, std::chrono::seconds(2)), {}};
+    const Motion motion{StepId{JobId{1}},
+                        small::sweep(*cell, {ArmId{0}}, straight, end, std::chrono::seconds(2)),
+                        {}};
     return checker.judge({1, TimePoint{}, {motion}, {}, cell->home(), Coordinated{kOff_rad}})
                .kind == Verdict::Kind::free;
   };

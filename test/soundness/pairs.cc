@@ -173,7 +173,8 @@ std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
     const auto any = [&](std::size_t of, std::size_t turned) {
       return pool.motions[of][2 * (random() % (pool.motions[of].size() / 2)) + turned];
     };
-    MovingPair pair{{JobId{1}, any(arm, turn), {}}, {JobId{2}, any(1 - arm, other_turn), {}}};
+    MovingPair pair{{StepId{JobId{1}}, any(arm, turn), {}},
+                    {StepId{JobId{2}}, any(1 - arm, other_turn), {}}};
     if (random() % 2 == 0) pair.candidate.progress = from_seconds(uniform(random, -3.0, 0.0));
     if (random() % 2 == 0) {
       const double end = to_seconds(pair.other.trajectory->duration());

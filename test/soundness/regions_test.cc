@@ -30,7 +30,7 @@ bool hold(const PairRegions& pair, Duration a, Duration b) {
 // Returns nullptr if the motions have no regions with each other.
 const PairRegions* between_motions_of(const Verdict& verdict) {
   const auto found = std::ranges::find_if(verdict.regions, [](const PairRegions& pair) {
-    return std::holds_alternative<JobId>(pair.b);
+    return std::holds_alternative<StepId>(pair.b);
   });
   return found == verdict.regions.end() ? nullptr : &*found;
 }

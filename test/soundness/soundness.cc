@@ -101,7 +101,7 @@ const Conflict* between_motions(const Verdict& verdict) {
 std::optional<double> first_in_regions_s(const Verdict& regions, const MovingPair& pair) {
   std::optional<double> first_s;
   for (const PairRegions& found : regions.regions) {
-    if (!std::holds_alternative<JobId>(found.b)) continue;
+    if (!std::holds_alternative<StepId>(found.b)) continue;
     for (const ConflictRegion& region : found.regions) {
       for (const ProgressBox& box : region.boxes) {
         const auto own = stay_of(pair.candidate, box.from_a, box.to_a);

@@ -24,8 +24,8 @@ CellPtr two_rods() {
 Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) {
   const double half = small::kHalfTurn;
   const Motion left{
-      JobId{1}, small::sweep(cell, {ArmId{0}}, {-1.2}, {1.2}, 400ms + 2 * offset), {}};
-  const Motion right{JobId{2}, small::sweep(cell, {ArmId{1}}, {half}, {half}, 1s), {}};
+      StepId{JobId{1}}, small::sweep(cell, {ArmId{0}}, {-1.2}, {1.2}, 400ms + 2 * offset), {}};
+  const Motion right{StepId{JobId{2}}, small::sweep(cell, {ArmId{1}}, {half}, {half}, 1s), {}};
   return {1, TimePoint{}, {left}, {right}, cell.home(), method};
 }
 

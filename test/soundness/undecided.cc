@@ -17,7 +17,7 @@ std::vector<PlaceOfPair> open_places(const Verdict& verdict) {
   std::vector<PlaceOfPair> places;
   for (const PairRegions& pair : verdict.regions) {
     for (const ConflictRegion& region : pair.regions) {
-      if (!std::holds_alternative<JobId>(pair.b)) continue;
+      if (!std::holds_alternative<StepId>(pair.b)) continue;
       if (region.proximity.clearance_m < kCloseClearance_m) continue;  // a conflict
       places.push_back({region.time_a, region.time_b});
     }

@@ -255,13 +255,13 @@ void CertifiedCheck::report(const CoordinationDiagram::Answer& answer,
     verdict_.kind = Verdict::Kind::undecided;
   }
   const CoordinationDiagram::Witness& found = *answer.conflict;
-  Conflict conflict{Conflict::With::scene,       own.motion->job, std::nullopt,
-                    diagram.proximity_of(found), found.time_a,    found.time_b};
+  Conflict conflict{Conflict::With::scene,       own.motion->step, std::nullopt,
+                    diagram.proximity_of(found), found.time_a,     found.time_b};
   if (diagram.is_self(found) || (other != nullptr && other->motion == own.motion)) {
     conflict.with = Conflict::With::self;
   } else if (other != nullptr && other->motion != nullptr) {
     conflict.with = Conflict::With::motion;
-    conflict.other_job = other->motion->job;
+    conflict.other_step = other->motion->step;
   } else if (other != nullptr) {
     conflict.with = Conflict::With::rest;
   }

@@ -69,7 +69,7 @@ PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
 }
 
 PairRegionSearch::Side PairRegionSearch::side_of(const Motion& motion) {
-  Side side{motion.job, &motion, {}};
+  Side side{motion.step, &motion, {}};
   for (const ArmId arm : motion.trajectory->arms()) {
     side.arms.push_back(&store_.motion(motion.trajectory, arm, question_.rest,
                                        std::max(tracking_errors_.of(arm), motion.off_path)));
@@ -160,7 +160,7 @@ void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found
                (may_get_more && std::ranges::any_of(regions, [this](const BlockedRegion& region) {
                   return blocked_[region.evidence].evidence != BlockedCell::Evidence::proven;
                 }));
-  PairRegions& pair = found.emplace_back(PairRegions{a.motion->job, b.who, {}});
+  PairRegions& pair = found.emplace_back(PairRegions{a.motion->step, b.who, {}});
   for (BlockedRegion& region : regions) pair.regions.push_back(region_of(std::move(region)));
 }
 

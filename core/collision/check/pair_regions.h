@@ -66,7 +66,7 @@ class PairRegionSearch {
 
  private:
   struct Side {  // a motion, or an arm at rest
-    std::variant<JobId, ArmId> who;
+    std::variant<StepId, ArmId> who;
     const Motion* motion;  // null if at rest
     std::vector<MotionStore::Entry*> arms;
     std::optional<CertifiedSide> certified = {};  // built on first use

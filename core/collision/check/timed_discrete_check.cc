@@ -178,13 +178,13 @@ class Judgement {
       std::swap(own, other);
       proximity = turned_around(std::move(proximity));
     }
-    Conflict conflict{Conflict::With::scene, own->motion->job, std::nullopt,
-                      std::move(proximity),  own->progress,    Duration::zero()};
+    Conflict conflict{Conflict::With::scene, own->motion->step, std::nullopt,
+                      std::move(proximity),  own->progress,     Duration::zero()};
     if (query_.is_self(near.pair) || own == other) {
       conflict.with = Conflict::With::self;
     } else if (other != nullptr) {
       conflict.with = Conflict::With::motion;
-      conflict.other_job = other->motion->job;
+      conflict.other_step = other->motion->step;
       conflict.other_time = other->progress;
     } else if (conflict.proximity.arm_b) {
       conflict.with = Conflict::With::rest;
@@ -193,7 +193,8 @@ class Judgement {
   }
 
   static bool same_counterpart(const Conflict& a, const Conflict& b) {
-    if (a.with != b.with || a.candidate != b.candidate || a.other_job != b.other_job) return false;
+    if (a.with != b.with || a.candidate != b.candidate || a.other_step != b.other_step)
+      return false;
     if (a.with == Conflict::With::rest) return a.proximity.arm_b == b.proximity.arm_b;
     return a.with != Conflict::With::scene || a.proximity.body_b == b.proximity.body_b;
   }

@@ -22,7 +22,7 @@ namespace armloom {
 //
 // Stops at the first instant with a conflict, and reports each counterpart with its closest pair.
 // Counterparts are
-// - another job's motion,
+// - another step's motion,
 // - an arm at rest,
 // - an object or static link (With::scene),
 // - the candidate's own links and the other arms of a synchronous motion (With::self).

@@ -19,13 +19,13 @@ double arrival_of(const State& state, const Job& job, const Prediction& predicti
   const ArmId arm = job.goal->way().goal.arm;
   Duration then{};
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const auto arms = state.jobs.at(motions[m].job).job.trajectory->arms();
+    const auto arms = state.jobs.at(motions[m].step).job.trajectory->arms();
     if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
   }
-  for (JobId id : state.jobs.queues()[arm]) {
-    const Job& before = state.jobs.at(id).job;
+  for (StepId step : state.jobs.queues()[arm]) {
+    const Job& before = state.jobs.at(step).job;
     if (before.is_waiting()) then += state.time_for(*before.trajectory);
-    if (id == job.id) break;
+    if (step == job.step()) break;
   }
   return to_seconds(then);
 }
@@ -42,7 +42,7 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
   };
   const auto& motions = state.graph.motions();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const Job& admitted = state.jobs.at(motions[m].job).job;
+    const Job& admitted = state.jobs.at(motions[m].step).job;
     comes_to(*admitted.trajectory, prediction.ends[m]);
     in_front.push_back(&admitted);
   }
@@ -69,8 +69,8 @@ PassingOrders orders_with(State& state, const std::vector<CoordinatedMotion>& ca
 // Nothing: it cannot go as things are.
 std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict) {
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
-  prepare_choice(state, {job});
   const Job& candidate = state.jobs.at(job).job;
+  prepare_choice(state, {candidate.step()});
   const PassingOrders orders =
       orders_with(state, {as_candidate(state, candidate)}, verdict.regions);
   if (!orders.blockers.empty()) return std::nullopt;
@@ -79,10 +79,11 @@ std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict)
 
 // It waits behind others of its arm: no less than if nothing met it.
 std::optional<double> cost_behind_others(State& state, JobId job) {
-  prepare_choice(state, {job});
+  const Job& candidate = state.jobs.at(job).job;
+  prepare_choice(state, {candidate.step()});
   const PassingOrders orders = orders_with(state, {}, {});
   if (orders.prediction.ends.size() != state.graph.motions().size()) return std::nullopt;
-  return cost_of(state, state.jobs.at(job).job, orders.prediction);
+  return cost_of(state, candidate, orders.prediction);
 }
 
 std::string refusal_of(const State& state, const Job& job, std::size_t alternative) {

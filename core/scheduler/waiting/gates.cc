@@ -25,11 +25,11 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
 // another could go: which of them does is left open until one must.
 bool is_next(const State& state, const Record& record, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
-  if (!queue.empty() && queue.front() == record.job.id) return true;
-  const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
+  if (!queue.empty() && queue.front() == record.job.step()) return true;
+  const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.step());
   const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
-    if (queue[place] == record.job.id) {
+    if (queue[place] == record.job.step()) {
       return !holds_one_ahead(state, record) && !others_may_take_its_turn(state, record);
     }
     if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
@@ -41,7 +41,7 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
 Closed behind(const Turns& turns, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
     if (is_next(turns.state(), record, arm)) continue;
-    return order(*turns.state().jobs.queues().before(record.job, arm), arm);
+    return order(turns.state().jobs.queues().before(record.job, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -49,21 +49,22 @@ Closed behind(const Turns& turns, const Record& record) {
 void add_behind(const State& state, Edges& edges) {
   for (const auto& queue : state.jobs.queues()) {
     for (std::size_t i = 1; i < queue.size(); ++i) {
-      if (stands(state, state.jobs.at(queue[i - 1]))) edges.push_back({queue[i], queue[i - 1]});
+      const StepId before = queue[i - 1];
+      if (stands(state, state.jobs.at(before))) edges.push_back({queue[i].job, before.job});
     }
   }
 }
 
 // The same for this job and those before it on its arms that `told` does not have yet.
 void add_behind(const State& state, const Record& record, Edges& edges,
-                std::set<std::pair<ArmId, JobId>>& told) {
+                std::set<std::pair<ArmId, StepId>>& told) {
   for (ArmId arm : record.job.trajectory->arms()) {
     const auto& queue = state.jobs.queues()[arm];
-    if (told.contains({arm, record.job.id})) continue;
-    for (auto job = std::ranges::find(queue, record.job.id); job != queue.begin(); --job) {
-      const JobId before = *std::prev(job);
-      if (!told.emplace(arm, *job).second || !stands(state, state.jobs.at(before))) break;
-      edges.push_back({*job, before});
+    if (told.contains({arm, record.job.step()})) continue;
+    for (auto step = std::ranges::find(queue, record.job.step()); step != queue.begin(); --step) {
+      const StepId before = *std::prev(step);
+      if (!told.emplace(arm, *step).second || !stands(state, state.jobs.at(before))) break;
+      edges.push_back({step->job, before.job});
     }
   }
 }
@@ -238,7 +239,7 @@ WaitsFor waits_for(const State& state) {
 WaitsFor waits_for(const State& state, std::vector<JobId> jobs) {
   Edges edges;
   std::set<JobId> seen(jobs.begin(), jobs.end());
-  std::set<std::pair<ArmId, JobId>> behind;
+  std::set<std::pair<ArmId, StepId>> behind;
   while (!jobs.empty()) {
     const Record& record = state.jobs.at(jobs.back());
     jobs.pop_back();
@@ -283,7 +284,7 @@ std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   const bool begun = of_job && jobs.at(*wait.job).job.has_started();
   if (!begun && wait.arm) {  // its arm moves with its next job
     const auto& queue = jobs.queues()[*wait.arm];
-    first = queue.empty() ? std::nullopt : std::optional(queue.front());
+    first = queue.empty() ? std::nullopt : std::optional(queue.front().job);
   }
   if (!first) return std::nullopt;
   return stands(state, jobs.at(*first)) ? first : std::nullopt;

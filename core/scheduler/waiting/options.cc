@@ -32,13 +32,14 @@ std::vector<Option> in_any_order(const State& state, const Record& turn) {
   std::vector<Option> options{{turn.job.id}};
   if (!may_change_places(turn) || is_overtaken_no_more(state, turn)) return options;
   const auto& queue = state.jobs.queues()[turn.leg.arms.front()];
-  for (auto id = std::ranges::find(queue, turn.job.id) + 1; id != queue.end(); ++id) {
-    const Record& other = state.jobs.at(*id);
+  const auto own = std::ranges::find(queue, turn.job.step());
+  for (auto step = own + 1; step != queue.end(); ++step) {
+    const Record& other = state.jobs.at(*step);
     const bool fits = may_change_places(other) &&
                       other.job.terms.priority == turn.job.terms.priority &&
                       other.leg.from == turn.leg.from;
     if (!fits || options.size() >= kOptionsMax) break;
-    options.push_back({*id});
+    options.push_back({step->job});
   }
   return options;
 }
@@ -53,9 +54,9 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
   std::size_t admitted = 0;
   bool is_next = true;
   const std::size_t place = place_on(state, record, arm);
-  for (JobId id : state.jobs.queues()[arm] | std::views::take(place)) {
-    if (id == record.job.id) continue;
-    const Record& other = state.jobs.at(id);
+  for (StepId step : state.jobs.queues()[arm] | std::views::take(place)) {
+    if (step == record.job.step()) continue;
+    const Record& other = state.jobs.at(step);
     if (other.job.is_admitted()) ++admitted;
     is_next = is_next && other.job.is_admitted();
     for (std::size_t i = 0; i < other.leg.arms.size(); ++i) {
@@ -92,7 +93,7 @@ std::size_t alternative_now(const Job& job) {
 // It waits, and is in no sequence by the arm that it has.
 bool is_shut(State& state, const Record& record) {
   return record.job.in<Queued>() != nullptr &&
-         !state.lanes.has_place(record.job.id, state.jobs, state.arms);
+         !state.lanes.has_place(record.job.step(), state.jobs, state.arms);
 }
 
 // Takes one by which it is not shut. Returns false if there is none: it keeps what it had, and what
@@ -129,9 +130,9 @@ bool others_may_take_its_turn(const State& state, const Record& turn) {
 }
 
 std::size_t place_on(const State& state, const Record& record, ArmId arm) {
-  const auto goes_before = [&](JobId id) {
-    const Record& other = state.jobs.at(id);
-    if (id == record.job.id) return false;
+  const auto goes_before = [&](StepId step) {
+    const Record& other = state.jobs.at(step);
+    if (step == record.job.step()) return false;
     // An errand counts with the turn of the job that it is for.
     const auto& next = other.errand.before;
     if (other.job.in<Queued>() == nullptr || next == record.job.id) return true;
@@ -146,7 +147,7 @@ std::size_t place_on(const State& state, const Record& record, ArmId arm) {
 void take_alternative(State& state, Record& record, std::size_t which) {
   const TrajectoryPtr trajectory = record.job.alternatives[which];
   const auto& queue = state.jobs.queues()[arm_of(*trajectory)];
-  const auto now = std::ranges::find(queue, record.job.id) - queue.begin();
+  const auto now = std::ranges::find(queue, record.job.step()) - queue.begin();
   auto place = static_cast<std::ptrdiff_t>(place_on(state, record, arm_of(*trajectory)));
   if (record.job.trajectory == trajectory) {
     // Jobs that were admitted before this one may wait again: then the older turn goes first.
@@ -154,12 +155,12 @@ void take_alternative(State& state, Record& record, std::size_t which) {
     if (now == place || record.job.in<Queued>() == nullptr) return;
   }
   if (record.job.goal) record.job.goal->taken = which;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
+  WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.step(), *trajectory);
   state.jobs.take(record, trajectory, std::move(leg), static_cast<std::size_t>(place));
   state.lanes.renew_later();
 }
 
-bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
+bool take_arms_that_remain(State& state, const std::vector<StepId>& go) {
   if (state.jobs.undecided().empty()) return false;
   if (state.lanes.after(go, state.jobs, state.arms).all) return false;
   bool any = false;
@@ -227,7 +228,7 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
 void reopen_turn(State& state, const Record& added) {
   if (!may_change_places(added)) return;
   const auto& queue = state.jobs.queues()[added.leg.arms.front()];
-  const auto waits = [&](JobId id) { return state.jobs.at(id).job.is_waiting(); };
+  const auto waits = [&](StepId step) { return state.jobs.at(step).job.is_waiting(); };
   Record& first = state.jobs.at(*std::ranges::find_if(queue, waits));
   auto* queued = std::get_if<Queued>(&first.job.phase);
   if (queued != nullptr && options_of(state, first.job.id).size() > 1) queued->judgement = {};

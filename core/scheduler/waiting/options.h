@@ -43,10 +43,10 @@ inline constexpr std::size_t kUndecidedMax = 16;
 // Gives the job this alternative, and moves it to place_on() in the queue of that arm.
 void take_alternative(State& state, Record& record, std::size_t which);
 
-// Call before the jobs `go` are admitted. Some undecided jobs might then no longer be possible on
+// Call before the steps `go` are admitted. Some undecided jobs might then no longer be possible on
 // the arm that they have. Assigns each of these to another arm for good, and returns true if there
 // was one.
-[[nodiscard]] bool take_arms_that_remain(State& state, const std::vector<JobId>& go);
+[[nodiscard]] bool take_arms_that_remain(State& state, const std::vector<StepId>& go);
 
 // Assigns one job of the cycle for good to another arm that can do it. Returns false if there is no
 // such job.

@@ -40,10 +40,10 @@ bool has_way_for_a_while(const Job& job) {
 }
 
 // Of an arm's jobs the first that is not admitted; nothing: all are.
-std::optional<JobId> first_that_waits(const State& state, const std::deque<JobId>& queue) {
-  const auto waits = [&](JobId id) { return state.jobs.at(id).job.is_waiting(); };
+std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue& queue) {
+  const auto waits = [&](StepId step) { return state.jobs.at(step).job.is_waiting(); };
   const auto first = std::ranges::find_if(queue, waits);
-  return first == queue.end() ? std::nullopt : std::optional(*first);
+  return first == queue.end() ? std::nullopt : std::optional(first->job);
 }
 
 // Whose waits may be others than they were told. Ascending.
@@ -54,9 +54,9 @@ std::vector<JobId> to_explain(State& state) {
   jobs.assign(unexplained.begin(), unexplained.end());
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
-    jobs.push_back(queue.front());
+    jobs.push_back(queue.front().job);
     const auto first = first_that_waits(state, queue);
-    if (first && *first != queue.front()) jobs.push_back(*first);
+    if (first && *first != queue.front().job) jobs.push_back(*first);
   }
   std::ranges::copy(first_undecided(state), std::back_inserter(jobs));
   std::ranges::sort(jobs);
@@ -82,7 +82,7 @@ std::vector<Turns::Aged> Turns::aged_jobs() const {
   const JobBook& jobs = state_.jobs;
   for (const auto& queue : jobs.queues()) {
     if (queue.empty() || !is_aged(state_, jobs.at(queue.front()))) continue;
-    aged.push_back({queue.front(), {}});
+    aged.push_back({queue.front().job, {}});
   }
   if (aged.empty()) return aged;
   std::ranges::sort(

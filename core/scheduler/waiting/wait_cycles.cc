@@ -25,7 +25,7 @@ JobId next_on(const WaitCycle& ring, std::size_t i) { return ring[(i + 1) % ring
 std::vector<JobId> first_jobs(const State& state) {
   std::vector<JobId> first = first_undecided(state);
   for (const auto& queue : state.jobs.queues()) {
-    if (!queue.empty()) first.push_back(queue.front());
+    if (!queue.empty()) first.push_back(queue.front().job);
   }
   return first;
 }

@@ -74,10 +74,10 @@ std::vector<JobId> approaches_of(const State& state, const Record& record) {
   std::vector<JobId> approaches;
   if (record.approaches.tries == 0) return approaches;
   for (ArmId arm : record.job.trajectory->arms()) {
-    for (JobId id : state.jobs.queues()[arm]) {
-      const Record& own = state.jobs.at(id);
+    for (StepId step : state.jobs.queues()[arm]) {
+      const Record& own = state.jobs.at(step);
       if (own.errand.before == record.job.id && own.job.system_job && own.job.goal)
-        approaches.push_back(id);
+        approaches.push_back(own.job.id);
     }
   }
   return approaches;

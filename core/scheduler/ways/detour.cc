@@ -7,6 +7,7 @@
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/ways/goals.h"
+#include "core/scheduler/ways/plan_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -53,12 +54,12 @@ Configuration places_held(const State& state, const Record& record,
                           const std::vector<PairRegions>& regions) {
   Configuration at = state.arms.rest();
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Trajectory& trajectory = *state.jobs.at(motion.job).job.trajectory;
+    const Trajectory& trajectory = *state.jobs.at(motion.step).job.trajectory;
     set_joints(at, trajectory, trajectory.goal());
   }
   Eigen::VectorXd held;
   for (const PairRegions& pair : regions) {
-    const auto* other = std::get_if<JobId>(&pair.b);
+    const auto* other = std::get_if<StepId>(&pair.b);
     if (other == nullptr || pair.regions.empty()) continue;
     const Trajectory& trajectory = *state.jobs.at(*other).job.trajectory;
     Duration from{}, to{};
@@ -77,21 +78,19 @@ void ask(State& state, Record& record) {
   const Job& job = record.job;
   JobGoal& goal = *record.job.goal;
   Detour& detour = *goal.detour;
-  ++detour.tries;
-  detour.question = ++record.asking.plans;
-  detour.asked_at = state.version;
-  PlanQuestion question{.goal = {.arm = goal.way().goal.arm,
-                                 .to = Eigen::VectorXd(job.trajectory->goal()),
-                                 .speed = goal.way().goal.speed},
-                        .at = detour.beside,
-                        .seed = job.id.value() + static_cast<std::uint64_t>(detour.tries),
-                        .budget = kDetourBudget};
-  state.decided.effects.push_back(PlanMotion{job.id, *detour.question, std::move(question)});
+  PlanQuestion question{
+      .goal = {.arm = goal.way().goal.arm,
+               .to = Eigen::VectorXd(job.trajectory->goal()),
+               .speed = goal.way().goal.speed},
+      .at = detour.request.beside,
+      .seed = job.id.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
+      .budget = kDetourBudget};
+  send(state, record, detour.request, std::move(question));
 }
 
 // Whether another one is worth the question.
 bool goes_on(const Detour& detour) {
-  return detour.arrives > detour.soon_enough && detour.tries < kDetoursMax;
+  return detour.arrives > detour.soon_enough && detour.request.tries < kDetoursMax;
 }
 
 // Of those that were weighed. Whether that is another one than it had.
@@ -129,13 +128,13 @@ bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>&
   const TimePoint arrives = arrival(state, orders);
   if (detour && std::exchange(detour->is_weighed, false)) return rate(state, record, arrives);
   const TimePoint soon_enough = soonest(state, record.job, orders) + kWaitWorthADetour;
-  if (arrives <= soon_enough || (detour && detour->tries >= kDetoursMax)) return false;
+  if (arrives <= soon_enough || (detour && detour->request.tries >= kDetoursMax)) return false;
   Configuration beside = places_held(state, record, regions);
   const bool is_as_tried =
-      detour && detour->asked_at >= state.scene_epoch && detour->beside == beside;
+      detour && detour->request.asked_at >= state.scene_epoch && detour->request.beside == beside;
   if (is_as_tried) return false;
   if (!detour) detour.emplace();
-  detour->beside = std::move(beside);
+  detour->request.beside = std::move(beside);
   detour->best = record.job.trajectory;
   detour->arrives = arrives;
   detour->soon_enough = soon_enough;
@@ -154,22 +153,19 @@ bool gives_detour_up(State& state, Record& record) {
   return true;
 }
 
-void take_detour(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
-  if (record == nullptr || !record->job.goal || !record->job.goal->detour) return;
-  Detour& detour = *record->job.goal->detour;
-  if (detour.question != answer.question) return;
-  detour.question.reset();
-  state.jobs.explain(*record);
-  if (!may_go_round(*record)) return;
-  const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.scene_epoch &&
+void take_detour(State& state, Record& record, const PlanMade& answer) {
+  Detour& detour = *record.job.goal->detour;
+  state.jobs.explain(record);
+  if (!may_go_round(record)) return;
+  const bool fits = answer.trajectory && detour.best &&
+                    detour.request.asked_at >= state.scene_epoch &&
                     answer.trajectory->start().isApprox(detour.best->start());
   const bool is_sooner = fits && state.now + state.time_for(*answer.trajectory) < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.
-  if (fits && !is_sooner && goes_on(detour)) return ask(state, *record);
-  if (!is_sooner) return (void)go_by_best(state, *record);
+  if (fits && !is_sooner && goes_on(detour)) return ask(state, record);
+  if (!is_sooner) return (void)go_by_best(state, record);
   detour.is_weighed = true;
-  go_by(state, *record, answer.trajectory);
+  go_by(state, record, answer.trajectory);
 }
 
 }  // namespace armloom

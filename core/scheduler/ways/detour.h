@@ -27,7 +27,7 @@ inline constexpr int kDetoursMax = 4;                   // for one plan of a job
 // immediate start. Returns true if the job must be checked again with another path, or planned
 // again.
 [[nodiscard]] bool gives_detour_up(State& state, Record& record);
-// Handles the answer to a PlanMotion; ignores it if it is not for a detour.
-void take_detour(State& state, const PlanMade& answer);
+// Handles the planner's answer for the job's detour.
+void take_detour(State& state, Record& record, const PlanMade& answer);
 
 }  // namespace armloom

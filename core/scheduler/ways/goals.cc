@@ -6,6 +6,7 @@
 
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
+#include "core/scheduler/ways/plan_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -14,13 +15,13 @@ namespace {
 // The arm is where it was, or was to be, when the question was asked.
 bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at, ArmId arm) {
   const auto& joints = state.cell->arm(arm).joints;
-  return (joints_of(way.beside, joints) - joints_of(at, joints)).cwiseAbs().maxCoeff() <=
+  return (joints_of(way.request.beside, joints) - joints_of(at, joints)).cwiseAbs().maxCoeff() <=
          state.cell->execution.start_tolerance_rad;
 }
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.
 bool fits(const State& state, const GoalWay& way, const Configuration& at) {
-  const bool is_asked = way.beside.size() != 0 && way.asked_at >= state.scene_epoch;
+  const bool is_asked = way.request.beside.size() != 0 && way.request.asked_at >= state.scene_epoch;
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 
@@ -29,8 +30,8 @@ bool comes_to_its_end(const Job& job) { return job.in<Queued>() == nullptr; }
 
 // Where the arm comes to rest by what is admitted.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
-  for (JobId id : state.jobs.queues()[arm]) {
-    const Job& job = state.jobs.at(id).job;
+  for (StepId step : state.jobs.queues()[arm]) {
+    const Job& job = state.jobs.at(step).job;
     if (comes_to_its_end(job)) follow_to_end(at, *state.cell, arm, *job.trajectory);
   }
 }
@@ -52,9 +53,9 @@ std::optional<Configuration> at_its_turn(const State& state, const Record& recor
   const auto& queue = state.jobs.queues()[arm];
   const bool is_taken = record.job.goal->way().goal.arm == arm;
   std::size_t before = is_taken ? queue.size() : place_on(state, record, arm);
-  for (JobId id : queue) {
-    if (before-- == 0 || id == record.job.id) break;
-    const Job& other = state.jobs.at(id).job;
+  for (StepId step : queue) {
+    if (before-- == 0 || step == record.job.step()) break;
+    const Job& other = state.jobs.at(step).job;
     if (other.has_open_arm()) continue;
     if (other.is_unplanned()) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -74,10 +75,11 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     if (arm == way.goal.arm) continue;
     question.may_move.push_back(arm);
     follow_admitted(at, state, arm);
-    const bool was_passed_there = way.beside.size() != 0 && is_as_asked(state, way, at, arm);
+    const bool was_passed_there =
+        way.request.beside.size() != 0 && is_as_asked(state, way, at, arm);
     if (was_passed_there || is_found_in_the_way(state, record.job, arm)) continue;
-    for (JobId id : state.jobs.queues()[arm]) {
-      const Record& other = state.jobs.at(id);
+    for (StepId step : state.jobs.queues()[arm]) {
+      const Record& other = state.jobs.at(step);
       const bool goes_before = other.turn < turn && !comes_to_its_end(other.job) &&
                                other.job.knows_its_end() && !other.job.has_open_arm();
       if (goes_before) follow_to_end(at, *state.cell, arm, *other.job.trajectory);
@@ -115,11 +117,7 @@ void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
-  ++way.tries;
-  way.question = ++record.asking.plans;
-  way.asked_at = state.version;
-  way.beside = question.at;
-  state.decided.effects.push_back(PlanMotion{record.job.id, *way.question, std::move(question)});
+  send(state, record, way.request, std::move(question));
 }
 
 enum class Answered {
@@ -131,17 +129,17 @@ enum class Answered {
 
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(State& state, Record& record, GoalWay& way) {
-  if (way.question) return Answered::not_yet;
+  if (way.request.question) return Answered::not_yet;
   const auto at = at_its_turn(state, record, way);
   if (!at) return Answered::not_yet;
   if (fits(state, way, *at)) {
     if (!way.is_planned && !way.stands_in) return Answered::refused;
-    way.tries = 0;
+    way.request.tries = 0;
     if (way.stands_in) return Answered::stands_in;
     if (!is_to_pass_another_place(state, record, way, *at)) return Answered::planned;
   }
-  if (way.tries < kPlansMax) {
-    if (way.beside.size() != 0 && way.is_planned) record.job.goal->detour.reset();
+  if (way.request.tries < kPlansMax) {
+    if (way.request.beside.size() != 0 && way.is_planned) record.job.goal->detour.reset();
     ask(state, record, way, *at);
     return Answered::not_yet;
   }
@@ -230,34 +228,29 @@ bool plan_goals(State& state) {
 void forget_plan(State& state, Record& record) {
   GoalWay& way = record.job.goal->way();
   way.is_planned = false;
-  way.beside = {};  // fits nowhere
+  way.request.beside = {};  // fits nowhere
   record.job.goal->is_planned = false;
   state.lanes.renew_later();
   state.jobs.explain(record);
   ++state.version;
 }
 
-void take_plan(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
-  if (record == nullptr || record->job.has_ended() || !record->job.goal) return;
-  JobGoal& goal = *record->job.goal;
-  const auto asked = std::ranges::find(goal.ways, answer.question, &GoalWay::question);
-  if (asked == goal.ways.end()) return;
-  asked->question.reset();
+void take_goal_plan(State& state, Record& record, GoalWay& way, const PlanMade& answer) {
+  JobGoal& goal = *record.job.goal;
   if (!answer.trajectory) {
-    asked->refusal = answer.why;
-    asked->stands_in = answer.stands_in;
-    state.jobs.explain(*record);
+    way.refusal = answer.why;
+    way.stands_in = answer.stands_in;
+    state.jobs.explain(record);
     return;
   }
-  asked->is_planned = true;
-  asked->goes_through = answer.goes_through;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.job, *answer.trajectory);
-  if (record->job.has_open_arm()) {
-    const auto which = static_cast<std::size_t>(asked - goal.ways.begin());
-    state.jobs.set_alternative(*record, which, answer.trajectory, std::move(leg));
-  } else if (asked == goal.ways.begin() + static_cast<std::ptrdiff_t>(goal.taken)) {
-    state.jobs.set_motion(*record, answer.trajectory, std::move(leg));
+  way.is_planned = true;
+  way.goes_through = answer.goes_through;
+  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.step, *answer.trajectory);
+  const auto which = static_cast<std::size_t>(&way - goal.ways.data());
+  if (record.job.has_open_arm()) {
+    state.jobs.set_alternative(record, which, answer.trajectory, std::move(leg));
+  } else if (which == goal.taken) {
+    state.jobs.set_motion(record, answer.trajectory, std::move(leg));
   }
 }
 

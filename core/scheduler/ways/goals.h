@@ -27,8 +27,8 @@ inline constexpr std::size_t kPlannedAhead = 16;
 // Discards a valid plan, so that the job is planned again.
 void forget_plan(State& state, Record& record);
 
-// Handles the planner's answer for a goal. If the plan is out of date, plan_goals() requests
-// another.
-void take_plan(State& state, const PlanMade& answer);
+// Handles the planner's answer for one of the job's goals. If the plan is out of date, plan_goals()
+// requests another.
+void take_goal_plan(State& state, Record& record, GoalWay& way, const PlanMade& answer);
 
 }  // namespace armloom

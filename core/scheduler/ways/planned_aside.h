@@ -12,7 +12,7 @@ namespace armloom {
 
 // Requests the plan (PlanMotion), unless a request is open. Precondition: the trial has no path.
 void ask_for_way_aside(State& state, const YieldTrial& move);
-// Handles the answer to a PlanMotion; ignores it if it is not for a retreat.
-void take_way_aside(State& state, const PlanMade& answer);
+// Handles the planner's answer for a retreat of the arm.
+void take_way_aside(const State& state, ArmId arm, YieldsTried& tried, const PlanMade& answer);
 
 }  // namespace armloom

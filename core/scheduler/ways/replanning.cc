@@ -7,6 +7,7 @@
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/ways/plan_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -34,7 +35,7 @@ double speed_of(const Cell& cell, const Trajectory& motion) {
 // A pose that others begin at is reached as it was planned; a straight line stays one.
 MotionGoal goal_of(const State& state, const Job& job, Configuration end) {
   const ArmId arm = arm_of(job);
-  const bool is_last = state.jobs.queues()[arm].back() == job.id;
+  const bool is_last = state.jobs.queues()[arm].back() == job.step();
   if (job.goal && (is_last || job.goal->way().goal.straight)) return job.goal->way().goal;
   follow_to_end(end, *state.cell, arm, *job.trajectory);
   return {.arm = arm,
@@ -66,21 +67,16 @@ bool is_same_place(const State& state, const Configuration& a, const Configurati
 bool fits(const State& state, const Record& record) {
   const AnotherWay& other = *record.job.another_way;
   const auto& joints = state.cell->arm(arm_of(record.job)).joints;
-  const Eigen::VectorXd from = joints_of(other.beside, joints);
+  const Eigen::VectorXd from = joints_of(other.request.beside, joints);
   const Eigen::VectorXd stands = joints_of(rest_after_admitted(state, &record.job), joints);
-  return other.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
+  return other.request.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
 }
 
 void ask_at_rest(State& state, Record& record) {
   Job& job = record.job;
   AnotherWay& other = *job.another_way;
-  if (!job.is_waiting() || other.question) return;
-  PlanQuestion question = question_about(state, record);
-  other.question = ++record.asking.plans;
-  other.beside = question.at;
-  other.asked_at = state.version;
-  ++other.tries;
-  state.decided.effects.push_back(PlanMotion{job.id, *other.question, std::move(question)});
+  if (!job.is_waiting() || other.request.question) return;
+  send(state, record, other.request, question_about(state, record));
 }
 
 void expire(State& state, Record& record, const std::string& why) {
@@ -108,7 +104,7 @@ void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) 
   if (job.has_open_arm()) state.jobs.decide_arm(record);
   if (!job.another_way) job.another_way.emplace();
   job.another_way->cause = cause;
-  if (cause == AnotherWay::Cause::client) job.another_way->tries = 0;
+  if (cause == AnotherWay::Cause::client) job.another_way->request.tries = 0;
   job.another_way->is_open = true;
   job.another_way->refusal.reset();
   state.jobs.being_replanned().insert(job.id);
@@ -130,36 +126,33 @@ void plan_other_ways(State& state) {
   }
 }
 
-bool take_other_way(State& state, const PlanMade& answer) {
-  Record* record = state.jobs.find(answer.job);
-  if (record == nullptr || !record->job.is_replanned_now() || record->job.has_ended()) return false;
-  AnotherWay& other = *record->job.another_way;
-  if (other.question != answer.question) return false;
-  other.question.reset();
-  if (!record->job.is_waiting()) return false;  // it is braking, and asks again
-  const bool is_fit = fits(state, *record);
-  if (!is_fit && other.tries < kReplansMax) {
-    ask_at_rest(state, *record);
+bool take_other_way(State& state, Record& record, const PlanMade& answer) {
+  if (!record.job.is_replanned_now()) return false;
+  AnotherWay& other = *record.job.another_way;
+  if (!record.job.is_waiting()) return false;  // it is braking, and asks again
+  const bool is_fit = fits(state, record);
+  if (!is_fit && other.request.tries < kReplansMax) {
+    ask_at_rest(state, record);
     return false;
   }
   other.is_open = false;
-  state.jobs.being_replanned().erase(answer.job);
-  state.jobs.explain(*record);
-  state.jobs.changed(*record);
+  state.jobs.being_replanned().erase(record.job.id);
+  state.jobs.explain(record);
+  state.jobs.changed(record);
   if (answer.trajectory && is_fit) {
     ++other.done;
-    set_out_anew(state, *record, answer.trajectory);
-    if (record->job.goal) {  // it is the plan to its goal from now on
-      GoalWay& way = record->job.goal->way();
-      way.beside = other.beside;
-      way.asked_at = other.asked_at;
-      record->job.goal->detour.reset();
+    set_out_anew(state, record, answer.trajectory);
+    if (record.job.goal) {  // it is the plan to its goal from now on
+      GoalWay& way = record.job.goal->way();
+      way.request.beside = other.request.beside;
+      way.request.asked_at = other.request.asked_at;
+      record.job.goal->detour.reset();
     }
     return true;
   }
   other.refusal =
       is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
-  if (other.cause == AnotherWay::Cause::timeout) expire(state, *record, *other.refusal);
+  if (other.cause == AnotherWay::Cause::timeout) expire(state, record, *other.refusal);
   return false;
 }
 
@@ -171,9 +164,9 @@ bool may_go_around(const State& state, const Record& record) {
   if (!job.is_waiting() && !job.pausing()) return false;
   if (!job.another_way) return true;
   const bool is_as_tried =
-      job.another_way->asked_at >= state.scene_epoch &&
-      is_same_place(state, job.another_way->beside, rest_after_admitted(state, &job));
-  return job.another_way->tries < kReplansMax && !is_as_tried;
+      job.another_way->request.asked_at >= state.scene_epoch &&
+      is_same_place(state, job.another_way->request.beside, rest_after_admitted(state, &job));
+  return job.another_way->request.tries < kReplansMax && !is_as_tried;
 }
 
 bool goes_around_idle_arm(State& state) {
@@ -195,7 +188,7 @@ bool goes_on_after_timeout(State& state, Record& record) {
   if (job.is_replanned_now()) return true;
   if (job.terms.on_timeout != OnTimeout::replan || job.is_unplanned() || why_not_replanned(job))
     return false;
-  if (job.another_way && job.another_way->tries >= kReplansMax) return false;
+  if (job.another_way && job.another_way->request.tries >= kReplansMax) return false;
   ask_for_another_way(state, record, AnotherWay::Cause::timeout);
   return true;
 }

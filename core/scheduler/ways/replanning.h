@@ -25,9 +25,8 @@ inline constexpr int kReplansMax = 3;
 void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause);
 // Requests plans (PlanMotion) for jobs that had to come to rest first and now are.
 void plan_other_ways(State& state);
-// Handles the answer to a PlanMotion; ignores it if it is not for a replan. Returns true if the job
-// got another path.
-[[nodiscard]] bool take_other_way(State& state, const PlanMade& answer);
+// Handles the planner's answer for a replan. Returns true if the job got another path.
+[[nodiscard]] bool take_other_way(State& state, Record& record, const PlanMade& answer);
 
 // Returns true if the cell's on_idle_blocker is "replan" and the job may be replanned: not more
 // than kReplansMax times, and not again in the same surroundings.

@@ -1,7 +1,6 @@
 #include "core/scheduler/yielding/errands.h"
 
 #include <algorithm>
-#include <deque>
 #include <vector>
 
 #include "core/jobs/phases.h"
@@ -22,24 +21,24 @@ bool returns_from(const Record& own, const std::vector<JobId>& moves) {
 // Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
 // move that stays is done is not where it stands now, so what follows that stays too. Needless ones
 // as they are to end: who does not go does not return.
-void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& needless) {
-  const auto is_of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
+void pass_on(State& state, const ArmQueues::Queue& queue, std::vector<JobId>& needless) {
+  const auto is_of_a_client = [&](StepId step) { return !state.jobs.at(step).job.system_job; };
   const auto next = std::ranges::find_if(queue, is_of_a_client);
   if (next == queue.end()) return;
   bool all_end = true;
-  for (auto id = queue.begin(); id != next; ++id) {
-    Record& own = state.jobs.at(*id);
+  for (auto step = queue.begin(); step != next; ++step) {
+    Record& own = state.jobs.at(*step);
     if (own.job.in<Queued>() == nullptr) return;
     if (returns_from(own, needless)) {
-      needless.insert(needless.begin(), *id);
+      needless.insert(needless.begin(), own.job.id);
       continue;
     }
     if (!helps_somebody(state, own)) {
       if (all_end && !is_counted_on(state, own)) {
-        needless.push_back(*id);
+        needless.push_back(own.job.id);
         continue;
       }
-      own.errand.on_behalf_of = *next;
+      own.errand.on_behalf_of = next->job;
     }
     all_end = false;
   }

@@ -175,7 +175,7 @@ std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
       const auto& queue = state.jobs.queues()[*wait.arm];
-      if (queue.empty() || queue.front() != next.id) continue;
+      if (queue.empty() || queue.front() != next.step()) continue;
       auto move = untried(state, waits, *wait.arm);
       if (!move) continue;
       move->before = next.id;
@@ -188,10 +188,10 @@ std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
 Question question_about(const State& state, const YieldTrial& move) {
   if (!move.is_free) {
     Question question = question_now(state, {});
-    question.candidates = {Motion{JobId{0}, move.way, Duration{}}};
+    question.candidates = {Motion{StepId{JobId{0}}, move.way, Duration{}}};
     return question;
   }
-  Question question = question_now(state, {move.blocked_job});
+  Question question = question_now(state, {only_step(move.blocked_job)});
   set_joints(question.rest, *move.way, move.way->goal());
   return question;
 }
@@ -199,7 +199,7 @@ Question question_about(const State& state, const YieldTrial& move) {
 bool is_as_asked(const State& state, const YieldTrial& move) {
   if (!state.jobs.is_active(move.blocked_job)) return false;
   const auto& queue = state.jobs.queues()[move.arm];
-  return move.before ? !queue.empty() && queue.front() == *move.before : queue.empty();
+  return move.before ? !queue.empty() && queue.front().job == *move.before : queue.empty();
 }
 
 bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move) {
@@ -207,7 +207,7 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
     if (move.is_free) return arm == move.arm;
     const auto& queue = state.jobs.queues()[arm];
     if (queue.empty()) return false;  // it may go aside too
-    return queue.front() == move.blocked_job ||
+    return queue.front().job == move.blocked_job ||
            (move.before && state.jobs.at(queue.front()).job.is_waiting());
   };
   for (const Conflict& conflict : verdict.conflicts) {
@@ -218,7 +218,7 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
   return std::ranges::none_of(verdict.regions, [&](const PairRegions& pair) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm != nullptr) return stays(*arm);
-    const bool of_it = !move.is_free && std::get<JobId>(pair.b) == move.blocked_job;
+    const bool of_it = !move.is_free && std::get<StepId>(pair.b).job == move.blocked_job;
     return of_it &&
            rests_in(pair, state.jobs.at(move.blocked_job).job.progress, move.way->duration());
   });
@@ -238,8 +238,9 @@ void note_tried(State& state, const YieldTrial& move, bool goes) {
 bool is_counted_on(const State& state, const Record& own) {
   const ArmId arm = own.job.trajectory->arms().front();
   const auto& queue = state.jobs.queues()[arm];
-  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
-  const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
+  const auto of_a_client = [&](StepId step) { return !state.jobs.at(step).job.system_job; };
+  const auto next =
+      std::find_if(std::ranges::find(queue, own.job.step()), queue.end(), of_a_client);
   if (next == queue.end()) return false;
   if (state.jobs.at(*next).job.goal) return false;  // begins wherever the arm stands
   if (own.job.has_started()) return true;

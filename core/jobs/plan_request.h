@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/ids.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// The requests for a path (PlanMotion) for one purpose: a goal, a detour, a replan or a retreat. At
+// most one is open; the next one may be sent when it is answered (ways/plan_requests.h).
+struct PlanRequest {
+  std::optional<std::uint64_t> question = {};  // number of the open question
+  // Positions of all arms in the last question. Empty: there is none, or its answer fits nowhere.
+  Configuration beside = {};
+  Version asked_at = 0;  // version of the last question
+  int tries = 0;         // questions since the owner last reset this
+
+  // Returns true if this is the number of the open question, which is then closed.
+  [[nodiscard]] bool takes(std::uint64_t number) {
+    if (question != number) return false;
+    question.reset();
+    return true;
+  }
+};
+
+}  // namespace armloom

@@ -1,0 +1,79 @@
+#include "core/scheduler/rejoining.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/jobs/phases.h"
+#include "core/scheduler/ways/replanning.h"
+
+namespace armloom {
+namespace {
+
+// An arm of a motion of several arms may rest ahead of the job's progress: it is compared with the
+// path there, at points this far apart.
+constexpr Duration kAheadStep = std::chrono::milliseconds(1);
+
+struct OffPath {
+  double distance = 0.0;
+  JointId joint{0};
+  double path = 0.0;  // where the joint should be
+};
+
+OffPath off_path_at(const State& state, ArmId arm, const Trajectory& motion, Duration progress) {
+  Eigen::VectorXd path;
+  motion.sample_positions(progress, path);
+  OffPath far;
+  for (std::size_t j = 0; j < motion.joints().size(); ++j) {
+    const JointId joint = motion.joints()[j];
+    if (state.cell->joint(joint).arm != arm) continue;
+    const double on_path = path[static_cast<Eigen::Index>(j)];
+    const double off =
+        std::abs(state.arms.rest()[static_cast<Eigen::Index>(joint.index())] - on_path);
+    if (off > far.distance) far = {off, joint, on_path};
+  }
+  return far;
+}
+
+OffPath nearest_on_path(const State& state, ArmId arm, const Record& record) {
+  const Trajectory& motion = *record.job.trajectory;
+  OffPath nearest = off_path_at(state, arm, motion, record.job.progress);
+  for (Duration at = record.job.progress; at < record.farthest;) {
+    at = std::min(at + kAheadStep, record.farthest);
+    const OffPath one = off_path_at(state, arm, motion, at);
+    if (one.distance < nearest.distance) nearest = one;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void rejoin(State& state, ArmId arm) {
+  const auto& queue = state.jobs.queues()[arm];
+  if (queue.empty() || state.arms.is_stopped(arm)) return;
+  Record& record = state.jobs.at(queue.front());
+  Job& job = record.job;
+  if (!job.has_started() || job.has_authority()) return;
+  const OffPath off = nearest_on_path(state, arm, record);
+  if (off.distance <= state.cell->execution.start_tolerance_rad) {
+    const bool is_within = off.distance <= state.cell->tracking_error(state.cell->arm(arm).robot);
+    if (!is_within) record.off_path = std::max(record.off_path, off.distance);
+    return;
+  }
+  const bool rejoins = job.goal || job.terms.move_to_start == MoveToStart::plan;
+  if (rejoins && !why_not_replanned(job)) {
+    return ask_for_another_way(state, record, AnotherWay::Cause::blocked);
+  }
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "the arm left its path, or was moved while it was stopped: %s is at %.6g, its path "
+                "at %.6g",
+                state.cell->joint(off.joint).name.c_str(),
+                state.arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
+  give_up(state, record,
+          {.then = AfterStop::Then::fail, .reason = Reason::start_mismatch, .detail = text});
+}
+
+}  // namespace armloom
