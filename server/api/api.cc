@@ -23,7 +23,8 @@ Present present(const Status& status, const Cell& cell) {
   return now;
 }
 
-// Returns the faults of the query, and of a body that the route does not read.
+// Returns the faults of the query, and of a body that a command does not read. (A GET may have a
+// body, which means nothing.)
 Problems faults_of(const Request& request, const Route& route,
                    const std::vector<std::string>& parameters) {
   Problems faults;
@@ -31,7 +32,7 @@ Problems faults_of(const Request& request, const Route& route,
   if (auto fault = bad_pretty(request.target)) faults.push_back(std::move(*fault));
   // The body of a stop is not read (read_request()).
   const bool has_body = route.is_stop ? request.has_body : !request.body->empty();
-  if (has_body && !route.reads) {
+  if (has_body && !route.reads && route.method != "GET") {
     const std::string& instead = route.instead_of_body;
     faults.push_back(
         {ProblemKind::malformed,

@@ -60,7 +60,7 @@ struct Route {
   std::string summary;
   std::string text = "";  // empty if the summary is enough
   std::vector<Parameter> parameters = {};
-  std::optional<Body> reads = {};    // nullopt: a request with a body is refused
+  std::optional<Body> reads = {};    // nullopt: a command with a body is refused
   std::string instead_of_body = "";  // where the data belongs that a client may send in a body
   std::vector<Outcome> outcomes;
   std::vector<int> refuses = {};  // in addition to common_refusals()
