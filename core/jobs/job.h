@@ -11,7 +11,7 @@
 #include "core/coordination/verdict.h"
 #include "core/jobs/job_terms.h"
 #include "core/jobs/job_words.h"
-#include "core/jobs/plan_request.h"
+#include "core/jobs/path_request.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -113,7 +113,7 @@ struct Choice {
 // A goal for one arm, and the plan for it (goals.h).
 struct GoalWay {
   MotionGoal goal;
-  PlanRequest request = {};                 // its tries: since the last plan that was up to date
+  PathRequest request = {};                 // its tries: since the last plan that was up to date
   bool is_planned = false;                  // the job's trajectory is the plan, not an estimate
   std::optional<std::string> refusal = {};  // the planner's reason, if there is no plan
   std::optional<Proximity> stands_in = {};  // ... because the arm is too close to this object
@@ -121,7 +121,7 @@ struct GoalWay {
 };
 // Detours of a goal's path around positions that other arms occupy (detour.h).
 struct Detour {
-  PlanRequest request = {};
+  PathRequest request = {};
   bool is_weighed = false;       // the job temporarily has a candidate path, and is checked with it
   TrajectoryPtr best = nullptr;  // the best path so far (a candidate, or the job's own), ...
   TimePoint arrives{};           // ... and its predicted arrival
@@ -155,7 +155,7 @@ struct AnotherWay {
   };
   Cause cause = Cause::client;
   bool is_open = false;                     // requested and not answered
-  PlanRequest request = {};                 // its tries: since the last request by a client
+  PathRequest request = {};                 // its tries: since the last request by a client
   std::uint64_t done = 0;                   // number of successful replans
   std::optional<std::string> refusal = {};  // why the last one failed
 };

@@ -18,7 +18,7 @@ namespace armloom {
 // Retreats of one arm tried for a job (yield_moves.h).
 struct YieldsTried {
   struct Planned {
-    PlanRequest request = {};
+    PathRequest request = {};
     bool is_answered = false;
     TrajectoryPtr way = nullptr;  // null if no path was found
   };

@@ -95,7 +95,7 @@ class OpenOrders {
   std::vector<CoordinatedMotion> motions_;
   std::size_t first_candidate_;
   MotionChains chains_;
-  const HeldAt& held_at_;
+  HeldAt held_at_;
   std::vector<OpenOrder> orders_;
   std::size_t decided_ = 0;
   std::vector<OrderChoice> choices_;

@@ -13,7 +13,7 @@
 #include "core/scheduler/amending.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/ways/goals.h"
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 
 namespace armloom {
 

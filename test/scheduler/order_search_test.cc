@@ -31,7 +31,7 @@ class RandomOrders {
     }
   }
   [[nodiscard]] OpenOrders open() const {
-    return OpenOrders({nobody_, none_, motions_, regions_, work_});
+    return OpenOrders({nobody_, none_, {}, motions_, regions_, work_});
   }
   [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
 
@@ -119,7 +119,7 @@ bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration othe
        StepId{JobId{2}},
        {region(ProgressBox{urgent_from, urgent_to, other_from, other_to})}}};
   const std::vector<Duration> work(2);
-  OpenOrders open({nobody, none, motions, regions, work});
+  OpenOrders open({nobody, none, {}, motions, regions, work});
   EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());
   return open.orders().front().a_first;
 }
@@ -140,7 +140,7 @@ bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<PairRegions> regions = {
       {StepId{JobId{1}}, StepId{JobId{2}}, {region(ProgressBox{500ms, 1s, 600ms, 3400ms})}}};
   const std::vector<Duration> work{0s, work_behind_long};
-  OpenOrders open({nobody, none, motions, regions, work});
+  OpenOrders open({nobody, none, {}, motions, regions, work});
   EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());
   return open.orders().front().a_first;
 }

@@ -56,8 +56,9 @@ struct OffPath : Bench {
     Eigen::VectorXd position;
     scheduler.find(job)->trajectory->sample_positions(600ms, position);
     position[0] += off_rad;
-    Bench::step(MotionReport{job, MotionReport::Kind::stopped, 600ms, position, "", 600ms},
-                at(700ms));
+    Bench::step(
+        MotionReport{only_step(job), MotionReport::Kind::stopped, 600ms, position, "", 600ms},
+        at(700ms));
   }
   void stop_and_resume() {
     Bench::step(Stop{{ArmId{0}}, "monitor"}, at(600ms));
@@ -123,7 +124,8 @@ TEST(Resume, AcceptsAnArmThatRestsAheadOfItsTeam) {
   motion->sample_positions(980ms, ahead);
   ASSERT_GT(ahead[1] - position[1], 0.02);
   position[1] = ahead[1];
-  bench.step(MotionReport{job, MotionReport::Kind::stopped, 950ms, position, "", 980ms}, at(1s));
+  bench.step(MotionReport{only_step(job), MotionReport::Kind::stopped, 950ms, position, "", 980ms},
+             at(1s));
   bench.step(Resume{{ArmId{0}}}, at(2s));
   EXPECT_EQ(bench.state(job), JobState::paused);
 }

@@ -7,7 +7,7 @@
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/ways/goals.h"
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -6,7 +6,7 @@
 
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

@@ -1,7 +1,7 @@
 #include "core/scheduler/ways/planned_aside.h"
 
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 
 namespace armloom {
 void ask_for_way_aside(State& state, const YieldTrial& move) {

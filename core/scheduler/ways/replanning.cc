@@ -7,7 +7,7 @@
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/motion_questions.h"
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {

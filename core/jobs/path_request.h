@@ -9,8 +9,8 @@
 namespace armloom {
 
 // The requests for a path (PlanMotion) for one purpose: a goal, a detour, a replan or a retreat. At
-// most one is open; the next one may be sent when it is answered (ways/plan_requests.h).
-struct PlanRequest {
+// most one is open; the next one may be sent when it is answered (ways/path_requests.h).
+struct PathRequest {
   std::optional<std::uint64_t> question = {};  // number of the open question
   // Positions of all arms in the last question. Empty: there is none, or its answer fits nowhere.
   Configuration beside = {};

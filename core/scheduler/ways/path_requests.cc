@@ -1,4 +1,4 @@
-#include "core/scheduler/ways/plan_requests.h"
+#include "core/scheduler/ways/path_requests.h"
 
 #include <utility>
 
@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-void send(State& state, Record& record, PlanRequest& request, PlanQuestion question) {
+void send(State& state, Record& record, PathRequest& request, PlanQuestion question) {
   request.question = ++record.asking.plans;
   request.beside = question.at;
   request.asked_at = state.version;
