@@ -100,6 +100,7 @@ struct JobMotionView {
   std::optional<double> velocity_scaling;  // for a goal, in (0, 1]; `duration` includes it
   double progress = 0.0;                   // 0..1
   bool stopping = false;
+  bool ends_at_rest = false;  // while it is stopping: it was canceled, or has failed
 };
 struct JobView {
   JobId id{0};

@@ -82,6 +82,8 @@ PromiseReport report_of(const PlanningScene& scene, ArmId id, const LinkPoses& X
       const double braking_s = limits.velocity_max / limits.brake;
       const double moves = limits.velocity_max * (reaction_s + 0.5 * braking_s);
       raise(report.stopping, {moves * lever.home_m, moves * lever.max_m});
+      const double before = limits.velocity_max * reaction_s;
+      raise(report.reaction, {before * lever.home_m, before * lever.max_m});
       report.stopping_s = std::max(report.stopping_s, reaction_s + braking_s);
     }
     raise(report.inflation, inflation);

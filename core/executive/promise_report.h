@@ -25,8 +25,10 @@ struct PromiseReport {
   // Longest time from a brake command until a joint at full speed rests: reaction + velocity /
   // brake.
   double stopping_s = 0.0;
-  // How far a point of the arm moves in this time, if one joint moves at full speed.
+  // How far a point of the arm moves in this time, if one joint moves at full speed; and the part
+  // of it before the brake begins.
   Distance stopping = {};
+  Distance reaction = {};
   // How far authority reaches beyond the stopping distance (trajectory time).
   Duration horizon{};
   // How far an arm of a synchronous motion may lead, without the stopping reach (trajectory time).

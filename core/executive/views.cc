@@ -160,13 +160,15 @@ JobTimesView times_of(const Job& job) {
 JobMotionView motion_of(const Job& job) {
   const Duration duration = job.trajectory->duration();
   const bool is_retimed = !job.goal && !job.system_job && job.trajectory->timed_here();
+  const auto* braking = job.in<Braking>();
   return {.duration = duration,
           .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
           .retimed = is_retimed ? std::optional(true) : std::nullopt,
           .velocity_scaling =
               job.goal ? std::optional(job.goal->ways[job.goal->taken].goal.speed) : std::nullopt,
           .progress = to_seconds(job.progress) / to_seconds(duration),
-          .stopping = job.stopping()};
+          .stopping = braking != nullptr,
+          .ends_at_rest = braking != nullptr && braking->after.then != AfterStop::Then::hold};
 }
 
 JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {

@@ -13,6 +13,9 @@ Present present(const Status& status, const Cell& cell) {
   Present now{to_seconds(status.time), {}};
   for (std::uint32_t a = 0; a < status.arms.size(); ++a) {
     const ArmStatus& arm = status.arms[a];
+    if (const auto job = arm.job ? status.jobs.find(*arm.job) : nullptr) {
+      if (job->motion.ends_at_rest) now.ending.push_back(job->key);
+    }
     const bool has_connected = arm.link != ArmLink::State::connecting;
     if (has_connected && arm.link != ArmLink::State::lost) continue;
     now.unlinked.push_back({cell.arm(ArmId{a}).name, has_connected, arm.link_detail});
@@ -20,10 +23,24 @@ Present present(const Status& status, const Cell& cell) {
   return now;
 }
 
-Problems query_faults(const Target& target, const std::vector<std::string>& parameters) {
+// Returns the faults of the query, and of a body that a command does not read. (A GET may have a
+// body, which means nothing.)
+Problems faults_of(const Request& request, const Route& route,
+                   const std::vector<std::string>& parameters) {
   Problems faults;
-  if (auto fault = query_problem(target, parameters)) faults.push_back(std::move(*fault));
-  if (auto fault = bad_pretty(target)) faults.push_back(std::move(*fault));
+  if (auto fault = query_problem(request.target, parameters)) faults.push_back(std::move(*fault));
+  if (auto fault = bad_pretty(request.target)) faults.push_back(std::move(*fault));
+  // The body of a stop is not read (read_request()).
+  const bool has_body = route.is_stop ? request.has_body : !request.body->empty();
+  if (has_body && !route.reads && route.method != "GET") {
+    const std::string& instead = route.instead_of_body;
+    faults.push_back(
+        {ProblemKind::malformed,
+         "unexpected-body",
+         "request body",
+         "this request has no body: remove it" + (instead.empty() ? "" : "; " + instead),
+         {}});
+  }
   return faults;
 }
 
@@ -52,7 +69,7 @@ void Api::add_routes(Router& router) {
         route.method, route.path, route.rights(),
         [this, &route, parameters](const Request& request, const Router::Arguments& arguments,
                                    Respond respond) {
-          auto faults = query_faults(request.target, parameters);
+          auto faults = faults_of(request, route, parameters);
           if (!route.is_stop && !faults.empty()) return respond(problem_response(faults));
           if (route.as_text != nullptr) respond = with_text(route, std::move(respond));
           route.run(Call{parts_, meshes_, recordings_, request, arguments, std::move(faults),

@@ -51,17 +51,9 @@ struct StopOrder {
 };
 // `who`: the arms, as the subject of a sentence.
 StopOrder stop_order(const Call& call, const std::string& who) {
-  StopOrder order{.faults = call.query_faults};
+  StopOrder order{.faults = call.faults};
   const auto query = stop_query().read(call.request.target);
   if (!query) std::ranges::copy(query.error(), std::back_inserter(order.faults));
-  if (call.request.has_body) {
-    order.faults.push_back({ProblemKind::malformed,
-                            "unexpected-body",
-                            "request body",
-                            "a stop has no body: remove it; the stop category is a query "
-                            "parameter, for example ?category=0",
-                            {}});
-  }
   if (order.faults.empty()) {
     order.category = static_cast<StopCategory>(query->category);
   } else {
@@ -247,6 +239,8 @@ std::vector<Route> arm_routes() {
   const std::string as_category =
       "as its category says (2 and 1: on the path; 0: each joint brakes by itself, drives off, and "
       "a moving arm leaves its path)";
+  const char* const category_in_query =
+      "the stop category is a query parameter, for example ?category=0";
   const char* const faulty_stop =
       "A faulty request (an unknown or repeated parameter, a bad value, a body) is answered 400, "
       "and "
@@ -256,6 +250,7 @@ std::vector<Route> arm_routes() {
       outcome(202, "The arm stops " + as_category + ", and stays stopped", arm_format())};
   stop_one.refuses = {404};
   stop_one.parameters = stop_query().parameters();
+  stop_one.instead_of_body = category_in_query;
   stop_one.text = faulty_stop;
   stop_one.is_stop = true;
   stop_one.as_text = arm_text;
@@ -271,6 +266,7 @@ std::vector<Route> arm_routes() {
   stop.outcomes = {
       outcome(202, "All arms stop " + as_category + ", and stay stopped", stopped_format())};
   stop.parameters = stop_query().parameters();
+  stop.instead_of_body = category_in_query;
   stop.text = faulty_stop;
   stop.is_stop = true;
   stop.as_text = stopped_text;
@@ -280,6 +276,7 @@ std::vector<Route> arm_routes() {
       202,
       "All arms are resumed; jobs continue as soon as their paths are certified collision-free",
       stopped_format())};
+  resume.instead_of_body = "to resume one arm: POST /api/v1/arms/{name}/resume";
   resume.as_text = stopped_text;
   resume.run = resume_all;
   std::vector<Route> routes{

@@ -67,6 +67,13 @@ bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jo
   return true;
 }
 
+void hint_at_yaml(Problems& problems) {
+  Problem& first = problems.front();
+  if (first.slug == "malformed-json" && first.detail.ends_with("this is not JSON")) {
+    first.detail += "; for YAML, send the header Content-Type: application/yaml";
+  }
+}
+
 Result<BodyForm> body_form(const Request& request) {
   const std::string found = request.content_type.value_or("none");
   std::istringstream parts(small(found));

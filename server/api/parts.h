@@ -109,6 +109,9 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
 enum class BodyForm { json, yaml };
 [[nodiscard]] Result<BodyForm> body_form(const Request& request);
 
+// Adds the header for YAML to a problem of a body that does not look like JSON.
+void hint_at_yaml(Problems& problems);
+
 // Maximum number of bytes of a body that is read at once. Larger bodies are read on a worker
 // thread.
 inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
@@ -126,7 +129,11 @@ void read_body(const ApiParts& parts, const Request& request, const Respond& res
   };
   using Value = decltype(read(std::string_view{}));
   const auto read_form = [form = *form, read = std::move(read)](const std::string& body) -> Value {
-    if (form == BodyForm::json) return read(std::string_view(body));
+    if (form == BodyForm::json) {
+      auto value = read(std::string_view(body));
+      if (!value) hint_at_yaml(value.error());
+      return value;
+    }
     const auto json = json_of_yaml(body);
     if (!json) return failure(json.error());
     return read(std::string_view(*json));

@@ -20,7 +20,7 @@ struct Call {
   const RecordingFiles& recordings;
   const Request& request;
   const Router::Arguments& arguments;  // values of {id} and the like in the path
-  Problems query_faults;               // only of a stop: other requests are refused before
+  Problems faults;                     // only of a stop: other requests are refused before
   Respond respond;
 };
 
@@ -60,7 +60,8 @@ struct Route {
   std::string summary;
   std::string text = "";  // empty if the summary is enough
   std::vector<Parameter> parameters = {};
-  std::optional<Body> reads = {};
+  std::optional<Body> reads = {};    // nullopt: a command with a body is refused
+  std::string instead_of_body = "";  // where the data belongs that a client may send in a body
   std::vector<Outcome> outcomes;
   std::vector<int> refuses = {};  // in addition to common_refusals()
   Who who = Who::reader;

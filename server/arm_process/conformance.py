@@ -5,7 +5,7 @@
     conformance.py ENDPOINT hello.json [--only CHECK ...]
 
 HAZARD: the first arm of the robot moves its first joint by 0.2 rad from where it is, many times. Keep the space clear.
-Prints a line for each check. Exit 0: all passed.
+Prints a line for each check. Exit 0: all passed. Exit 1: a check failed. Exit 2: no hello in the file, or no driver.
 """
 import argparse
 import copy
@@ -15,7 +15,11 @@ import re
 import sys
 import time
 
-from server_end import Broken, Motion, Server, expect
+from server_end import Broken, Motion, Server, connect, expect
+
+HELLO = {"type", "protocol", "session", "cell", "robot", "arms", "start_tolerance_rad", "reaction_s", "feedback_period_s",
+         "timeout_s"}
+JOINT = {"name", "velocity", "acceleration", "brake"}
 
 
 # ---- Checks. Each begins with a new session; `new(...)` makes a connection. ----
@@ -337,13 +341,31 @@ def run(endpoint, hello, names):
     return failures
 
 
+def hello_of(parser, path):
+    """Reads the hello. Exits with 2 if it is none."""
+    try:
+        hello = json.loads(path.read_text())
+        if not isinstance(hello, dict) or not HELLO <= set(hello):
+            raise ValueError("is no hello")
+        if not all(JOINT <= set(joint) for arm in hello["arms"] for joint in arm["joints"]) or not hello["arms"]:
+            raise ValueError("has no arms with joints and limits")
+        return hello
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        parser.exit(2, f"{path}: {error}; write the file with `armloom arm --cell CELL --robot NAME --hello`\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description="Tests that a robot driver keeps Armloom's protocol.")
     parser.add_argument("endpoint", help="unix:PATH or tcp:HOST:PORT")
     parser.add_argument("hello", type=pathlib.Path, help="output of `armloom arm --hello`")
     parser.add_argument("--only", nargs="+", choices=list(CHECKS), default=list(CHECKS))
     options = parser.parse_args()
-    sys.exit(1 if run(options.endpoint, json.loads(options.hello.read_text()), options.only) else 0)
+    hello = hello_of(parser, options.hello)
+    try:
+        connect(options.endpoint).close()
+    except (OSError, ValueError) as error:
+        parser.exit(2, f"{options.endpoint}: no connection to a driver: {error}\n")
+    sys.exit(1 if run(options.endpoint, hello, options.only) else 0)
 
 
 if __name__ == "__main__":

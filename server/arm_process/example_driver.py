@@ -198,8 +198,10 @@ class Driver:
 
 def listen(endpoint):
     kind, _, place = endpoint.partition(":")
+    if kind not in ("unix", "tcp"):
+        raise ValueError("not an endpoint: expected unix:PATH or tcp:HOST:PORT")
     if kind == "unix":
-        if os.path.exists(place):
+        if pathlib.Path(place).is_socket():  # of a driver that has ended
             os.remove(place)
         listening = socket.socket(socket.AF_UNIX)
         listening.bind(place)
@@ -212,11 +214,49 @@ def listen(endpoint):
     return listening
 
 
-if __name__ == "__main__":
-    if len(sys.argv) not in (3, 4):
-        sys.exit(__doc__)
+def robot_of(path):
+    robot = parse(pathlib.Path(path).read_text())
+    if robot["type"] != "hello":
+        raise ValueError("not a hello")
+    return robot
+
+
+def begins_of(text, robot):
+    """Reads the positions at the start."""
+    begins = json.loads(text)
+    sizes = {arm["name"]: len(arm["joints"]) for arm in robot["arms"]}
+    if not isinstance(begins, dict) or not set(begins) <= set(sizes):
+        raise ValueError(f"expected an object with positions of the arms {', '.join(sizes)}")
+    for arm, positions in begins.items():
+        if not isinstance(positions, list) or len(positions) != sizes[arm] or \
+                not all(type(position) in (int, float) for position in positions):
+            raise ValueError(f"{arm}: expected a list of {sizes[arm]} numbers")
+    return begins
+
+
+def read(what, reads, *arguments):
+    """Returns what `reads` returns. Exits with 2 if the user's input is wrong."""
     try:
-        begins = json.loads(sys.argv[3]) if len(sys.argv) == 4 else {}
-        Driver(listen(sys.argv[1]), parse(pathlib.Path(sys.argv[2]).read_text()), begins).run()
+        return reads(*arguments)
+    except KeyError as error:
+        print(f"{what}: {error} is missing or unknown", file=sys.stderr)
+    except (OSError, ValueError, TypeError, AttributeError) as error:
+        print(f"{what}: {error}", file=sys.stderr)
+    sys.exit(2)
+
+
+def main():
+    if len(sys.argv) not in (3, 4):
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    robot = read(sys.argv[2], robot_of, sys.argv[2])
+    begins = read("positions at the start", begins_of, sys.argv[3], robot) if len(sys.argv) == 4 else {}
+    listening = read(sys.argv[1], listen, sys.argv[1])
+    try:
+        Driver(listening, robot, begins).run()
     except KeyboardInterrupt:
         pass
+
+
+if __name__ == "__main__":
+    main()

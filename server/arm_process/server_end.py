@@ -259,6 +259,8 @@ class Server:
 
 def connect(endpoint):
     kind, _, place = endpoint.partition(":")
+    if kind not in ("unix", "tcp"):
+        raise ValueError("not an endpoint: expected unix:PATH or tcp:HOST:PORT")
     if kind == "unix":
         made = socket.socket(socket.AF_UNIX)
         made.connect(place)

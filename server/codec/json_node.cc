@@ -80,15 +80,16 @@ bool JsonNode::wrong_type(const char* expected) const {
   return false;
 }
 
-void JsonNode::missing(std::string_view key) const {
+void JsonNode::missing(std::string_view key, const std::string& what) const {
   if (faults_->size() >= kFaultsMax) return;
   std::string place = pointer();
   append_key(place, key);
-  faults_->push_back(Problem{ProblemKind::invalid,
-                             "missing-field",
-                             std::move(place),
-                             "\"" + std::string(key) + "\" is missing",
-                             {}});
+  faults_->push_back(Problem{
+      ProblemKind::invalid,
+      "missing-field",
+      std::move(place),
+      "\"" + std::string(key) + "\" is missing" + (what.empty() ? "" : ": give the " + what),
+      {}});
 }
 
 bool JsonNode::array() const { return value_->is_array() || wrong_type("an array"); }

@@ -41,13 +41,13 @@ class JsonNode {
   void optional(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) read(JsonNode(*it, *this, key));
   }
-  // Does the same as optional(), but reports a missing member.
+  // Does the same as optional(), but reports a missing member. `what`: what to give.
   template <class Read>
-  void required(std::string_view key, Read read) const {
+  void required(std::string_view key, Read read, const std::string& what = "") const {
     if (const auto it = value_->find(key); it != value_->end()) {
       read(JsonNode(*it, *this, key));
     } else {
-      missing(key);
+      missing(key, what);
     }
   }
   // Calls read(element) for each element of an array. Reports a value that is not an array.
@@ -89,7 +89,7 @@ class JsonNode {
       : value_(&value), parent_(&parent), index_(index), faults_(parent.faults_) {}
 
   bool wrong_type(const char* expected) const;
-  void missing(std::string_view key) const;
+  void missing(std::string_view key, const std::string& what) const;
 
   const nlohmann::json* value_;
   const JsonNode* parent_ = nullptr;

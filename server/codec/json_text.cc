@@ -69,7 +69,7 @@ class StrictBuilder {
     const bool has_bracket = first != std::string_view::npos && std::strchr("{[", text_[first]);
     return has_bracket
                ? ": look for a quote, comma or bracket that is missing or too many, here or before"
-               : "; for YAML, send the header Content-Type: application/yaml";
+               : "";
   }
   [[nodiscard]] json take() { return std::move(root_); }
   [[nodiscard]] Problem problem() const { return problem_; }

@@ -108,7 +108,11 @@ int run_arm(const ArmOptions& options) {
     const auto payload = payload_of(options.payload);
     if (!payload) return refuse_option("--payload", payload.error().front());
     const auto simulated = PhysicsRobot::create(cell, id, *payload, log);
-    if (!simulated) return refuse(options.cell_file, simulated.error());
+    if (!simulated) {
+      const Problem& first = simulated.error().front();
+      return first.pointer == "payload" ? refuse_option("--payload", first)
+                                        : refuse(options.cell_file, simulated.error());
+    }
     controllers = PhysicsRobot::controllers(*simulated);
   } else {
     controllers = controllers_of(cell, *robot, options.seed);

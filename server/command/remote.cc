@@ -21,8 +21,24 @@ int complain_with(const std::string& text, int code) {
   return code;
 }
 
+// The options of a command that give the members of a body, by pointer.
+using OptionNames = std::vector<std::pair<std::string, std::string>>;
+
+// Names options in place of members. `text`: one problem a line, each after its pointer.
+std::string with_options(const std::string& text, const OptionNames& names) {
+  std::string renamed = '\n' + text;
+  for (const auto& [pointer, option] : names) {
+    const std::string old = '\n' + pointer + ": ";
+    for (auto at = renamed.find(old); at != std::string::npos; at = renamed.find(old, at)) {
+      renamed.replace(at + 1, pointer.size(), option);
+    }
+  }
+  return renamed.substr(1);
+}
+
 // Explains why a request failed, and returns the exit code.
-int explain(const ClientResponse& response, const RemoteOptions& options) {
+int explain(const ClientResponse& response, const RemoteOptions& options,
+            const OptionNames& names = {}) {
   if (response.status == 401) {
     return complain_with(
         options.token.empty()
@@ -40,7 +56,8 @@ int explain(const ClientResponse& response, const RemoteOptions& options) {
            ", is not one of an armloom server: is ARMLOOM_URL (or --url) its address?";
   }
   while (text.ends_with('\n')) text.pop_back();
-  return complain_with(text, response.status < 500 ? kExitBadInput : kExitUnavailable);
+  return complain_with(with_options(text, names),
+                       response.status < 500 ? kExitBadInput : kExitUnavailable);
 }
 
 int unreachable(const Problems& problems) {
@@ -58,7 +75,7 @@ int bad_url(const Problems& problems) {
 // `target` is without the prefix of the API.
 tl::expected<std::string, int> answer_to(const RemoteOptions& options, const char* accept,
                                          const char* method, const std::string& target,
-                                         std::string body = {}) {
+                                         std::string body = {}, const OptionNames& names = {}) {
   const auto server = read_server_url(options.url);
   if (!server) return tl::unexpected(bad_url(server.error()));
   auto response =
@@ -66,7 +83,7 @@ tl::expected<std::string, int> answer_to(const RemoteOptions& options, const cha
   if (!response) return tl::unexpected(unreachable(response.error()));
   if (response->status < 300) return std::move(response->body);
   if (options.json) std::cout << response->body << std::flush;
-  return tl::unexpected(explain(*response, options));
+  return tl::unexpected(explain(*response, options, names));
 }
 
 int print(const std::string& text) {
@@ -76,9 +93,9 @@ int print(const std::string& text) {
 
 // Sends the request and prints the answer.
 int send(const RemoteOptions& options, const char* method, const std::string& target,
-         std::string body = {}) {
+         std::string body = {}, const OptionNames& names = {}) {
   const auto answer =
-      answer_to(options, options.json ? kJson : kText, method, target, std::move(body));
+      answer_to(options, options.json ? kJson : kText, method, target, std::move(body), names);
   return answer ? print(*answer) : answer.error();
 }
 
@@ -153,7 +170,12 @@ int change_remote_faults(const FaultsOptions& options) {
   if (options.value) body["value"] = *options.value;
   if (options.at_s) body["at_s"] = *options.at_s;
   if (options.for_s) body["for_s"] = *options.for_s;
-  return send(options.server, "POST", faults, body.dump());
+  return send(options.server, "POST", faults, body.dump(),
+              {{"/arm", "arm"},
+               {"/kind", "kind"},
+               {"/value", "--value"},
+               {"/at_s", "--at"},
+               {"/for_s", "--for"}});
 }
 
 int print_events(const EventsOptions& options) {

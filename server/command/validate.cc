@@ -87,8 +87,9 @@ void print_cell(const Cell& cell) {
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
               << no_minus_zero(p.z()) << "; controller " << robot.controller.type
               << (robot.controller.endpoint.empty() ? "" : " at ") << robot.controller.endpoint
-              << ", lag " << to_seconds(robot.controller.lag) << " s, noise "
-              << robot.controller.noise_rad << " rad\n";
+              << (robot.controller.type == "remote" ? "; when simulated: lag " : ", lag ")
+              << to_seconds(robot.controller.lag) << " s, noise " << robot.controller.noise_rad
+              << " rad\n";
     for (const ArmId arm : robot.arms) print_arm(cell, cell.arm(arm));
   }
   std::cout << "  * a default: velocity " << kDefaultVelocity << ", acceleration "
@@ -131,14 +132,16 @@ void print_promises(const Cell& cell, const PromiseReport& report) {
             << "  tracking error " << report.tracking_error << " rad (m): adds "
             << millimeters(report.inflation) << " of clearance around the arm\n"
             << "  reaction " << to_seconds(promised.reaction)
-            << " s: if one joint moves at full speed, the arm's farthest point stops after "
+            << " s: if one joint moves at full speed, the arm's farthest point moves "
+            << millimeters(report.reaction)
+            << " before the arm brakes; with braking, it stops after "
             << std::round(1e3 * report.stopping_s) / 1e3 << " s and "
             << millimeters(report.stopping) << '\n'
             << "  feedback every " << to_seconds(promised.feedback_period) << " s, lost after "
-            << to_seconds(promised.feedback_timeout) << " s: the server grants "
+            << to_seconds(promised.feedback_timeout) << " s: the authority reaches "
             << to_seconds(report.horizon)
-            << " s of path more than the arm needs to stop; in a motion of several arms, one arm "
-               "may be ahead by "
+            << " s (at planned speed) beyond the stopping point; in a motion of several arms, one "
+               "arm may be ahead by "
             << to_seconds(report.lead) << " s\n";
 }
 

@@ -68,14 +68,24 @@ Descriptor socket_for(const Address& address) {
   return made;
 }
 
-// Removes the file of a socket whose process has ended.
-void remove_stale(const Endpoint& endpoint, const Address& address) {
+// Removes the file of a socket whose process has ended. Returns a problem if another process
+// listens there, or if the file is no socket.
+std::optional<Problem> remove_stale(const Endpoint& endpoint, const Address& address) {
+  const auto in_use = [&](const std::string& why) {
+    return Problem{ProblemKind::unavailable, "endpoint-unavailable", "",
+                   "cannot listen on " + endpoint.text() + ": " + why};
+  };
   struct stat file {};
-  if (lstat(endpoint.path.c_str(), &file) != 0 || !S_ISSOCK(file.st_mode)) return;
-  const Descriptor probe = socket_for(address);
-  if (connect(probe.get(), address.get(), address.size) != 0 && errno == ECONNREFUSED) {
-    unlink(endpoint.path.c_str());
+  if (lstat(endpoint.path.c_str(), &file) != 0) return std::nullopt;
+  if (!S_ISSOCK(file.st_mode)) {
+    return in_use("the file exists and is no socket of an arm: remove it, or choose another path");
   }
+  const Descriptor probe = socket_for(address);
+  if (connect(probe.get(), address.get(), address.size) == 0) {
+    return in_use("another process listens there: end it, or choose another path");
+  }
+  if (errno == ECONNREFUSED) unlink(endpoint.path.c_str());
+  return std::nullopt;
 }
 
 }  // namespace
@@ -105,7 +115,9 @@ Result<Descriptor> connect_to(const Endpoint& endpoint, const std::stop_token& s
 Result<Descriptor> listen_on(const Endpoint& endpoint) {
   const auto address = address_of(endpoint, AI_PASSIVE);
   if (!address) return failure(address.error());
-  if (endpoint.is_unix()) remove_stale(endpoint, *address);
+  if (endpoint.is_unix()) {
+    if (auto problem = remove_stale(endpoint, *address)) return failure(*std::move(problem));
+  }
   Descriptor made = socket_for(*address);
   const int on = 1;
   if (!endpoint.is_unix()) setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

@@ -8,6 +8,8 @@
 #include <array>
 #include <utility>
 
+#include "core/base/diagnostics.h"
+
 namespace armloom {
 namespace {
 
@@ -186,7 +188,9 @@ std::string RemoteRobot::converse(const std::stop_token& stop) {
       return endpoint_.text() + " sent no welcome: it is no controller, or it is busy";
     }
     if (now - heard_at > silence_max) {
-      return "no answer from " + endpoint_.text() + " for " +
+      return (is_welcome_ ? endpoint_.text() + ": connected, but no report"
+                          : "no answer from " + endpoint_.text()) +
+             " for " +
              std::to_string(std::chrono::duration_cast<milliseconds>(silence_max).count()) + " ms";
     }
     if (is_welcome_ && beats_.exchange(false)) {
@@ -266,15 +270,17 @@ std::optional<std::string> RemoteRobot::fault_of(const Welcome& welcome) const {
       return at + ": the joints of arm \"" + arm.name + "\" differ from those of the cell file";
     }
   }
-  const auto broken = [&](const char* what, double kept, double needed) {
-    return at + " promises a " + what + " of " + std::to_string(kept) +
-           " s, but the cell file relies on " + std::to_string(needed) + " s";
+  const auto broken = [&](const std::string& what, double kept, double needed, const char* faster) {
+    return at + " promises a " + what + " of " + text_of(kept) +
+           " s, but the cell file relies on " + text_of(needed) + " s: raise controller." + what +
+           " in the cell file, or " + faster;
   };
   if (welcome.reaction_s > hello.reaction_s) {
-    return broken("reaction_s", welcome.reaction_s, hello.reaction_s);
+    return broken("reaction_s", welcome.reaction_s, hello.reaction_s, "make the controller faster");
   }
   if (welcome.feedback_period_s > hello.feedback_period_s) {
-    return broken("feedback_period_s", welcome.feedback_period_s, hello.feedback_period_s);
+    return broken("feedback_period_s", welcome.feedback_period_s, hello.feedback_period_s,
+                  "send reports more often");
   }
   return std::nullopt;
 }

@@ -6,6 +6,15 @@
 #include <variant>
 
 namespace armloom {
+
+std::optional<Alert> alert_of(const Event& event) {
+  if (const auto* alert = std::get_if<Alert>(&event.body)) return *alert;
+  const auto* found = std::get_if<MonitorEvent>(&event.body);
+  if (found == nullptr) return std::nullopt;
+  return Alert{found->stopped.empty() ? Alert::Level::warning : Alert::Level::error,
+               "monitor: " + found->text};
+}
+
 AlertBook::AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper)
     : stream_(std::move(stream)), clock_(clock), keeper_(keeper) {
   if (keeper_ == nullptr) return;
@@ -14,18 +23,12 @@ AlertBook::AlertBook(std::string stream, const WallClock& clock, JobKeeper* keep
 }
 
 void AlertBook::happened(const Event& event) {
+  const auto told = alert_of(event);
+  if (!told || told->level == Alert::Level::info) return;
   StoredAlert alert{.id = stream_ + ":" + std::to_string(event.seq),
-                    .at_ms = since_1970_ms(clock_.wall_at(event.time))};
-  if (const auto* told = std::get_if<Alert>(&event.body)) {
-    if (told->level == Alert::Level::info) return;
-    alert.level = told->level == Alert::Level::error ? "error" : "warning";
-    alert.text = told->text;
-  } else if (const auto* found = std::get_if<MonitorEvent>(&event.body)) {
-    alert.level = found->stopped.empty() ? "warning" : "error";
-    alert.text = "monitor: " + found->text;
-  } else {
-    return;
-  }
+                    .at_ms = since_1970_ms(clock_.wall_at(event.time)),
+                    .level = to_string(told->level),
+                    .text = told->text};
   alerts_.push_back(alert);
   if (alerts_.size() > kAlertsKept) alerts_.erase(least_needed());
   if (keeper_ != nullptr) keeper_->store().keep(std::move(alert));

@@ -14,6 +14,10 @@
 
 namespace armloom {
 
+// Returns the alert that the event is or reports; nullopt if it is none. A finding of the monitor
+// that stops an arm is an error.
+[[nodiscard]] std::optional<Alert> alert_of(const Event& event);
+
 // The last kAlertsKept warnings and errors. Acknowledged alerts are dropped first, errors last. A
 // keeper stores them on disk. Use on the server's thread.
 class AlertBook {

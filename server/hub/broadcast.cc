@@ -9,14 +9,25 @@ namespace armloom {
 
 namespace {
 
-LogLine line_of(const Alert& alert, const Event& event) {
-  const auto level = alert.level == Alert::Level::error     ? LogLine::Level::error
-                     : alert.level == Alert::Level::warning ? LogLine::Level::warning
-                                                            : LogLine::Level::info;
-  return {level,
-          alert.text,
-          {{"seq", static_cast<std::int64_t>(event.seq)},
-           {"t_s", to_seconds(event.time.time_since_epoch())}}};
+// Returns the line of an alert. A finding of the monitor that stops no arm has none: noise could
+// cause many each second.
+std::optional<LogLine> line_of(const Event& event) {
+  const auto alert = alert_of(event);
+  if (!alert) return std::nullopt;
+  const auto level = alert->level == Alert::Level::error     ? LogLine::Level::error
+                     : alert->level == Alert::Level::warning ? LogLine::Level::warning
+                                                             : LogLine::Level::info;
+  LogLine line{level,
+               alert->text,
+               {{"seq", static_cast<std::int64_t>(event.seq)},
+                {"t_s", to_seconds(event.time.time_since_epoch())}}};
+  const auto* found = std::get_if<MonitorEvent>(&event.body);
+  if (found == nullptr) return line;
+  if (found->stopped.empty()) return std::nullopt;
+  std::string stopped;
+  for (const std::string& arm : found->stopped) stopped += (stopped.empty() ? "" : ",") + arm;
+  line.fields.emplace_back("stopped", std::move(stopped));
+  return line;
 }
 
 }  // namespace
@@ -29,7 +40,7 @@ void Broadcast::on_event(const Event& event) {
     const auto* job = std::get_if<JobView>(&event->body);
     if (job != nullptr && parts_.keeper != nullptr) parts_.keeper->see(*job);
     parts_.alerts.happened(*event);
-    if (const auto* alert = std::get_if<Alert>(&event->body)) parts_.log(line_of(*alert, *event));
+    if (const auto line = line_of(*event)) parts_.log(*line);
     parts_.hub.publish(event->seq, text);
     parts_.metrics.happened(*event);
   });

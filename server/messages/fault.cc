@@ -166,7 +166,9 @@ class KindsOwn final : public CustomPart<FaultRequest> {
       number(rule.value->range)->read(node, fault.value);
     };
     fault.value = rule.value->by_default.value_or(0.0);
-    rule.value->by_default ? object.optional("value", read) : object.required("value", read);
+    if (rule.value->by_default) return object.optional("value", read);
+    object.required("value", read,
+                    std::string(rule.value->meaning) + ", " + in_words(rule.value->range));
   }
   void describe(Schema& object, const FaultRequest&, Way way) const override {
     describe_member(object,
@@ -249,6 +251,11 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
 }
 
 }  // namespace
+
+bool has_value(std::string_view kind) {
+  const auto rule = std::ranges::find(kKinds, kind, &KindRule::name);
+  return rule != kKinds.end() && rule->value;
+}
 
 FormatPtr<FaultRequest> fault_request_format() {
   static const auto format =

@@ -16,6 +16,9 @@ namespace armloom {
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 
+// Returns true if faults of this kind have a value.
+[[nodiscard]] bool has_value(std::string_view kind);
+
 // Reads an array of bodies of POST /sim/faults. Each body must have "at_s" and an arm of `cell`.
 [[nodiscard]] Result<std::vector<FaultRequest>> read_faults_text(std::string_view text,
                                                                  const Cell& cell);

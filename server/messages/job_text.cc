@@ -23,10 +23,13 @@ std::string blocker_of(const Schema& wait) {
   return arm.empty() ? std::string("another job") : "arm " + arm;
 }
 
+const UnlinkedArm* unlinked_arm(const std::string& name, const Present& now) {
+  const auto arm = std::ranges::find(now.unlinked, name, &UnlinkedArm::name);
+  return arm != now.unlinked.end() ? &*arm : nullptr;
+}
 // Returns the arm if its controller must connect before the arm can be resumed; else null.
 const UnlinkedArm* unlinked_arm(const Schema& wait, const Present& now) {
-  const auto arm = std::ranges::find(now.unlinked, text_at(wait, "arm"), &UnlinkedArm::name);
-  return text_at(wait, "kind") == "stop" && arm != now.unlinked.end() ? &*arm : nullptr;
+  return text_at(wait, "kind") == "stop" ? unlinked_arm(text_at(wait, "arm"), now) : nullptr;
 }
 
 // A phrase after "it waits for", such as "job reach of arm left to pass".
@@ -112,16 +115,21 @@ std::string end_of_waiting(const Schema& job, const Present& now) {
   return " It moves for " + duration_text(job) + " once it starts." + expiry_of(job, now);
 }
 
+// `with_cause`: says why the link is not up.
+std::string start_of_controller(const UnlinkedArm& arm, bool with_cause) {
+  return " Start the controller of arm " + arm.name +
+         (arm.has_connected ? " again, or repair its connection" : "") +
+         (with_cause ? " (" + arm.detail + ")." : ".");
+}
+
 // Says which controllers must connect before arms can be resumed, or returns "".
 std::string links_needed(const Schema& job, const Present& now) {
   std::string text;
   for (const Schema& wait : list_at(job, "waits_on")) {
     const UnlinkedArm* arm = unlinked_arm(wait, now);
     if (arm == nullptr) continue;
-    text += std::string(arm->has_connected ? " Reconnect" : " Start") + " the controller of arm " +
-            arm->name + " first";
     const bool is_told = text_at(wait, "detail").find(arm->detail) != std::string::npos;
-    text += is_told ? "." : " (" + arm->detail + ").";
+    text += start_of_controller(*arm, !is_told);
   }
   return text;
 }
@@ -156,6 +164,19 @@ std::string remedy_of(const Schema& job, const Present& now) {
   return list_at(job, "waits_on").empty() ? "" : " Nothing needs to be done; it starts by itself.";
 }
 
+std::string time_from_start_to_end(const Schema& job) {
+  const auto started = number_at(job, "started_s"), ended = number_at(job, "ended_s");
+  // A job that a later session ended has no cell time of its end.
+  const auto result = job.find("result");
+  const bool is_restart =
+      result != job.end() && result->is_object() && text_at(*result, "reason") == "server_restart";
+  if (is_restart && (!started || !ended || *ended <= *started)) {
+    return started ? " The server did not see when it came to rest." : "";
+  }
+  if (!started || !ended) return " It never moved.";
+  return " It took " + in_seconds(*ended - *started) + " from its start to its end.";
+}
+
 std::string ended_text(const Schema& job) {
   const auto result = job.find("result");
   std::string text = " ended as " + text_at(job, "state");
@@ -165,13 +186,23 @@ std::string ended_text(const Schema& job) {
     if (const std::string detail = text_at(*result, "detail"); !detail.empty())
       text += ", " + detail;
   }
-  const auto started = number_at(job, "started_s"), ended = number_at(job, "ended_s");
-  if (started && ended) {
-    text += ". It took " + in_seconds(*ended - *started) + " from its start to its end";
-  } else {
-    text += ". It never moved";
+  return text + "." + time_from_start_to_end(job);
+}
+
+// Of a job whose arms brake. The last report of an arm without a link may be old.
+std::string braking_text(const Schema& job, const Present& now) {
+  std::string absent;
+  for (const Schema& name : list_at(job, "arms")) {
+    const UnlinkedArm* arm = unlinked_arm(name.get<std::string>(), now);
+    if (arm != nullptr) absent += start_of_controller(*arm, true);
   }
-  return text + ".";
+  const bool is_ending = std::ranges::find(now.ending, text_at(job, "id")) != now.ending.end();
+  if (!is_ending) {
+    return (absent.empty() ? " It brakes on its path." : "") + waits_text(job, now) +
+           remedy_of(job, now);
+  }
+  return absent.empty() ? " It brakes on its path, and ends when it rests."
+                        : " It ends when its controller reports again." + absent;
 }
 
 std::string moving_text(const Schema& job, const Present& now) {
@@ -179,7 +210,7 @@ std::string moving_text(const Schema& job, const Present& now) {
       (1.0 - number_at(job, "progress").value_or(0.0)) * number_at(job, "duration_s").value_or(0.0);
   std::string text =
       " has run" + since(job, "started_s", now) + " and is " + percent(job) + " done.";
-  if (flag_at(job, "stopping")) return text + " It brakes on its path.";
+  if (flag_at(job, "stopping")) return text + braking_text(job, now);
   if (text_at(job, "state") == "paused") {
     return " is paused on its path at " + percent(job) + "." + waits_text(job, now) +
            expiry_of(job, now) + remedy_of(job, now);

@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "server/messages/fault.h"
 #include "server/messages/text_parts.h"
 
 namespace armloom {
 namespace {
 
-// Columns as wide as their longest cell; the last column is not padded.
+// Columns as wide as their longest cell. No line ends with a space.
 using Row = std::vector<std::string>;
 std::string table_of(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
@@ -20,10 +21,11 @@ std::string table_of(const std::vector<Row>& rows) {
   }
   std::string text;
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
       text += row[i] + std::string(widths[i] + 2 - row[i].size(), ' ');
     }
-    text += row.back() + '\n';
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
   }
   return text;
 }
@@ -45,6 +47,27 @@ std::string override_text(std::optional<double> share) {
   return share ? printed("%g %%", 100.0 * *share) : "-";
 }
 
+// "stopped: operator; link lost: unix:/tmp/left.sock: Connection refused", or "".
+std::string arm_note(const Schema& arm) {
+  const std::string cause = text_at(arm, "stop_cause"), link = text_at(arm, "link");
+  std::string note = cause.empty() ? "" : "stopped: " + cause;
+  if (link != "up") {
+    const std::string why = text_at(arm, "link_detail");
+    note += (note.empty() ? "" : "; ") + ("link " + link) + (why.empty() ? "" : ": " + why);
+  }
+  return note;
+}
+
+// Says which arms a command does not reach.
+std::string absent_text(const Present& now) {
+  std::string text;
+  for (const UnlinkedArm& arm : now.unlinked) {
+    text += "arm " + arm.name + " gets no command, because there is no link to its controller (" +
+            arm.detail + ")" + (arm.has_connected ? "; it brakes by itself\n" : "\n");
+  }
+  return text;
+}
+
 // The data of an event, on one line.
 std::string news_of(const std::string& type, const Schema& data) {
   if (type == "job") {
@@ -54,9 +77,11 @@ std::string news_of(const std::string& type, const Schema& data) {
   if (type == "arm") {
     const std::string job = text_at(data, "job");
     const auto speed = number_at(data, "effective_speed_override");
+    const std::string note = arm_note(data);
     return text_at(data, "name") + " " + text_at(data, "state") +
            (job.empty() ? "" : ", job " + job) +
-           (speed && *speed < 1.0 ? ", speed override " + override_text(speed) : "");
+           (speed && *speed < 1.0 ? ", speed override " + override_text(speed) : "") +
+           (note.empty() ? "" : "; " + note);
   }
   if (type == "queue") {
     std::string text = flag_at(data, "stopped") ? "all arms are stopped; " : "";
@@ -72,21 +97,20 @@ std::string news_of(const std::string& type, const Schema& data) {
     return printed("version %.0f", number_at(data, "version").value_or(0)) + ", " +
            std::to_string(list_at(data, "objects").size()) + " objects";
   if (type == "alert") return text_at(data, "level") + ": " + text_at(data, "text");
+  if (type == "guard") {
+    return "refused arm " + text_at(data, "arm") + ", job " + text_at(data, "job") + ": " +
+           text_at(data, "kind");
+  }
+  if (type == "monitor") {
+    const Schema& stopped = list_at(data, "stopped");
+    return text_at(data, "text") + (stopped.empty() ? "" : "; stopped: " + joined(stopped, ", "));
+  }
   if (type == "snapshot") {
     return std::to_string(list_at(data, "jobs").size()) + " jobs, " +
            std::to_string(list_at(data, "arms").size()) + " arms" +
            (flag_at(data, "gap") ? "; earlier events are missing" : "");
   }
-  std::string text = joined(list_at(data, "arms"), ", ");
-  if (const std::string kind = text_at(data, "kind"); !kind.empty())
-    text += (text.empty() ? "" : ": ") + kind;
-  if (const Schema& links = list_at(data, "links"); links.size() == 2)
-    text += ", " + joined(links, " and ");
-  if (const auto clearance = number_at(data, "clearance_m"))
-    text += " " + distance_text(*clearance);
-  if (const Schema& stopped = list_at(data, "stopped"); !stopped.empty())
-    text += "; stopped: " + joined(stopped, ", ");
-  return text.empty() ? data.dump() : text;
+  return data.dump();
 }
 
 }  // namespace
@@ -118,7 +142,7 @@ std::string speed_text(const Schema& speed, const Present&) {
 }
 
 std::string arm_list_text(const Schema& arms, const Present&) {
-  std::vector<Row> rows{{"ARM", "STATE", "JOB", "PROGRESS", "OVERRIDE", "POSITIONS"}};
+  std::vector<Row> rows{{"ARM", "STATE", "JOB", "PROGRESS", "OVERRIDE", "POSITIONS", "NOTE"}};
   for (const Schema& arm : list_at(arms, "arms")) {
     const std::string job = text_at(arm, "job");
     std::string q;
@@ -127,7 +151,7 @@ std::string arm_list_text(const Schema& arms, const Present&) {
     }
     rows.push_back({text_at(arm, "name"), text_at(arm, "state"), job.empty() ? "-" : job,
                     job.empty() ? "-" : percent(arm),
-                    override_text(number_at(arm, "effective_speed_override")), q});
+                    override_text(number_at(arm, "effective_speed_override")), q, arm_note(arm)});
   }
   return table_of(rows);
 }
@@ -144,7 +168,9 @@ std::string fault_list_text(const Schema& faults, const Present& now) {
     const char* const lasts = fault.contains("remaining_s") ? "remaining_s" : "for_s";
     const auto remaining = number_at(fault, lasts);
     rows.push_back({text_at(fault, "id"), text_at(fault, "arm"), text_at(fault, "kind"),
-                    printed("%g", number_at(fault, "value").value_or(0.0)),
+                    has_value(text_at(fault, "kind"))
+                        ? printed("%g", number_at(fault, "value").value_or(0.0))
+                        : "-",
                     waits_s > 0.0 ? "in " + in_seconds(waits_s) : "now",
                     remaining ? in_seconds(*remaining) : "-"});
   }
@@ -155,14 +181,14 @@ std::string fault_text(const Schema& fault, const Present& now) {
   return fault_list_text({{"faults", Schema::array({fault})}}, now);
 }
 
-std::string stopped_text(const Schema& stopped, const Present&) {
+std::string stopped_text(const Schema& stopped, const Present& now) {
   static constexpr const char* kEffects[] = {
       "switch their drives off, each joint brakes by itself, and moving arms leave their paths",
       "brake on their paths, then switch their drives off",
       "brake on their paths, then hold their positions"};
   if (const auto category = number_at(stopped, "category")) {
     return std::string("all arms ") + kEffects[static_cast<int>(*category)] +
-           "; they stay stopped until resumed\n";
+           "; they stay stopped until resumed\n" + absent_text(now);
   }
   const Schema& absent = list_at(stopped, "not_resumed");
   return absent.empty()
@@ -178,7 +204,7 @@ std::string problem_text(const Schema& problem) {
     std::string text =
         pointer.empty() || pointer == "request target" ? detail : pointer + ": " + detail;
     const auto value = fault.find("value");
-    if (value != fault.end()) {
+    if (value != fault.end() && !value->is_null()) {
       const std::string found = value->is_string() ? value->get<std::string>() : value->dump();
       if (!found.empty() && detail.find(found) == detail.npos) text += " (found " + found + ")";
     }

@@ -17,6 +17,7 @@ struct UnlinkedArm {
 struct Present {
   double time_s = 0.0;  // cell time
   std::vector<UnlinkedArm> unlinked = {};
+  std::vector<std::string> ending = {};  // ids of jobs that end as soon as their arms rest
 };
 
 // Answers of the API as text for people, made from the JSON of the message. Every text ends with a

@@ -89,13 +89,12 @@ class Writer {
     const auto link = cell_.find_link(payload.link);
     if (!link || (options_.robot && cell_.link(*link).robot != *options_.robot)) {
       problems_.push_back({ProblemKind::not_found, "unknown-link", "payload",
-                           "payload: no link '" + payload.link + "' in the robot", payload.link});
+                           "no link '" + payload.link + "' in the robot", payload.link});
     }
     if (!(payload.mass_kg > 0.0) || !std::isfinite(payload.mass_kg)) {
-      problems_.push_back(
-          {ProblemKind::invalid, "payload-mass", "payload",
-           "payload: mass is " + text_of(payload.mass_kg) + " kg, not a positive number",
-           payload.mass_kg});
+      problems_.push_back({ProblemKind::invalid, "payload-mass", "payload",
+                           "mass is " + text_of(payload.mass_kg) + " kg, not a positive number",
+                           payload.mass_kg});
     }
   }
 
@@ -266,8 +265,7 @@ class Writer {
 
   void report_assumptions(const Robot& robot) {
     const auto warn = [&](const char* slug, const std::string& detail) {
-      warnings_.push_back({ProblemKind::invalid, slug, "robot " + robot.name,
-                           "robot " + robot.name + ": " + detail});
+      warnings_.push_back({ProblemKind::invalid, slug, "robot " + robot.name, detail});
     };
     if (!without_mass_.empty()) {
       warn("assumed-mass", std::to_string(without_mass_.size()) + " links have no <inertial> (" +

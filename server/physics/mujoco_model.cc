@@ -110,11 +110,15 @@ void MujocoModel::set_lock(std::size_t i, bool locked) {
 
 bool MujocoModel::is_locked(std::size_t i) const { return model_->eq_active[i] != 0; }
 
-Eigen::Isometry3d MujocoModel::pose(std::string_view body) const {
-  const auto found = std::find(mjcf_.bodies.begin(), mjcf_.bodies.end(), body);
-  if (found == mjcf_.bodies.end()) throw std::out_of_range("no body " + std::string(body));
-  const std::string name = "B" + std::to_string(found - mjcf_.bodies.begin());
-  const int id = mj_name2id(model_.get(), mjOBJ_BODY, name.c_str());
+int MujocoModel::body(std::string_view name) const {
+  const auto found = std::find(mjcf_.bodies.begin(), mjcf_.bodies.end(), name);
+  if (found == mjcf_.bodies.end()) throw std::out_of_range("no body " + std::string(name));
+  const std::string number = "B" + std::to_string(found - mjcf_.bodies.begin());
+  return mj_name2id(model_.get(), mjOBJ_BODY, number.c_str());
+}
+
+Eigen::Isometry3d MujocoModel::pose(std::string_view name) const {
+  const int id = body(name);
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.translation() = Eigen::Map<const Eigen::Vector3d>(data_->xpos + std::ptrdiff_t{3} * id);
   X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(

@@ -41,9 +41,11 @@ class MujocoModel {
   void set_positions(const Configuration& q);
   // Adds the contacts of the last collision check, one per pair of bodies.
   void add_contacts(std::vector<BodyContact>& contacts) const;
+  // Number of a link or object in model(). Throws std::out_of_range if there is none of that name.
+  [[nodiscard]] int body(std::string_view name) const;
   // Pose of a link or object in the world after the last kinematics. Throws std::out_of_range if
   // the model does not have a body of that name.
-  [[nodiscard]] Eigen::Isometry3d pose(std::string_view body) const;
+  [[nodiscard]] Eigen::Isometry3d pose(std::string_view name) const;
 
   // Locks driven()[i] at its present position, or unlocks it.
   void set_lock(std::size_t i, bool locked);

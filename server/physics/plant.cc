@@ -2,9 +2,13 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "core/base/diagnostics.h"
 
 namespace armloom {
 namespace {
@@ -28,7 +32,45 @@ Result<Plant> Plant::create(CellPtr cell, const PlantOptions& options, Problems&
   if (!real_model) return failure(std::move(real_model.error()));
   auto known_model = MujocoModel::compile(std::move(*known_mjcf));
   if (!known_model) return failure(std::move(known_model.error()));
-  return Plant(std::move(cell), options, std::move(*real_model), std::move(*known_model));
+  Plant plant(std::move(cell), options, std::move(*real_model), std::move(*known_model));
+  if (options.payload) {
+    if (auto fault = plant.fault_of(*options.payload)) return failure(*std::move(fault));
+  }
+  return plant;
+}
+
+// Returns a problem if a drive cannot hold the payload in the present position. A joint's effort is
+// a linear function of the payload's mass.
+std::optional<Problem> Plant::fault_of(const Payload& payload) {
+  const mjModel& model = mujoco_->model();
+  mjData& data = mujoco_->data();
+  const auto size = static_cast<std::size_t>(model.nv);
+  mj_kinematics(&model, &data);
+  mj_comPos(&model, &data);
+  std::vector<double> effort(size), translation(3 * size);
+  mj_rne(&model, &data, 0, effort.data());
+  const Eigen::Isometry3d X_WL = mujoco_->pose(payload.link);
+  const Eigen::Vector3d p_WC = X_WL * payload.p_LC_m;
+  mj_jac(&model, &data, translation.data(), nullptr, p_WC.data(), mujoco_->body(payload.link));
+  double holds_kg = std::numeric_limits<double>::infinity();
+  const DrivenLink* weakest = nullptr;
+  for (std::size_t i = 0; i < references_.size(); ++i) {
+    const auto dof = static_cast<std::size_t>(mujoco_->dof(i));
+    const DrivenLink& link = mujoco_->driven()[i];
+    const double per_kg = -model.opt.gravity[2] * translation[2 * size + dof];
+    const double own = effort[dof] - payload.mass_kg * per_kg;
+    const double most_kg = (link.effort_max - std::copysign(1.0, per_kg) * own) / std::abs(per_kg);
+    if (std::isnan(most_kg) || most_kg >= holds_kg) continue;
+    holds_kg = most_kg;
+    weakest = &link;
+  }
+  if (weakest == nullptr || payload.mass_kg <= holds_kg) return std::nullopt;
+  return Problem{ProblemKind::invalid, "payload-too-heavy", "payload",
+                 "too heavy: at home, the drives can hold at most " +
+                     text_of(std::floor(100.0 * std::max(0.0, holds_kg)) / 100.0) + " kg at " +
+                     payload.link + "; the effort limit of " + cell_->joint(weakest->driver).name +
+                     " is " + text_of(weakest->effort_max) + " N m (N)",
+                 payload.mass_kg};
 }
 
 Plant::Plant(CellPtr cell, const PlantOptions& options, std::unique_ptr<MujocoModel> real,

@@ -42,7 +42,8 @@ class Plant {
   static constexpr Duration kStepMax = std::chrono::microseconds(500);
 
   // Starts at rest at cell->home() with drives on. Adds an assumption to `warnings` for each kind
-  // of value that the URDF lacks. Returns the problems of make_mjcf() or MujocoModel::compile().
+  // of value that the URDF lacks. Returns the problems of make_mjcf() or MujocoModel::compile(), or
+  // a problem "payload-too-heavy" if the drives cannot hold the payload at home.
   [[nodiscard]] static Result<Plant> create(CellPtr cell, const PlantOptions& options,
                                             Problems& warnings);
 
@@ -75,6 +76,7 @@ class Plant {
  private:
   Plant(CellPtr cell, const PlantOptions& options, std::unique_ptr<MujocoModel> real,
         std::unique_ptr<MujocoModel> known);
+  [[nodiscard]] std::optional<Problem> fault_of(const Payload& payload);
   void measure();
   void lock_brakes(Duration period);
   void throw_if_invalid(Duration period, const Eigen::VectorXd& position,

@@ -72,8 +72,8 @@ RobotDynamics read_dynamics(const std::string& urdf_text, const std::string& rob
   if (document.Parse(urdf_text.c_str(), urdf_text.size()) != tinyxml2::XML_SUCCESS) return dynamics;
   const XMLElement* root = document.RootElement();
   const auto warn = [&](const std::string& place, const std::string& detail) {
-    warnings.push_back({ProblemKind::invalid, "faulty-dynamics", "robot " + robot + ": " + place,
-                        place + ": " + detail});
+    warnings.push_back(
+        {ProblemKind::invalid, "faulty-dynamics", "robot " + robot + ": " + place, detail});
   };
   for (const XMLElement* link = root->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {

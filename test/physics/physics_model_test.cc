@@ -59,8 +59,8 @@ TEST(RobotDynamics, ReportsImpossibleValuesAndLeavesThemOut) {
   EXPECT_FALSE(dynamics.links.contains("odd"));
   EXPECT_FALSE(dynamics.joints.at("odd").effort_max.has_value());
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_THAT(warnings[0].detail, testing::HasSubstr("link odd"));
-  EXPECT_THAT(warnings[1].detail, testing::HasSubstr("joint j2"));
+  EXPECT_THAT(warnings[0].pointer, testing::HasSubstr("link odd"));
+  EXPECT_THAT(warnings[1].pointer, testing::HasSubstr("joint j2"));
 }
 
 }  // namespace

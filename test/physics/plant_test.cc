@@ -281,13 +281,38 @@ TEST(Plant, WarnsOfAssumedMassesAndRefusesBadPayloads) {
   ASSERT_TRUE(Plant::create(cell, {RobotId{0}, {}, false}, warnings).has_value());
   ASSERT_EQ(warnings.size(), 1u);
   std::printf("%s\n", warnings[0].detail.c_str());
-  EXPECT_THAT(warnings[0].detail, testing::HasSubstr("robot left: 11 links have no <inertial>"));
+  EXPECT_EQ(warnings[0].pointer, "robot left");
+  EXPECT_THAT(warnings[0].detail, testing::StartsWith("11 links have no <inertial>"));
   const auto other = Plant::create(cell, {RobotId{1}, in_hand(1.0), false}, warnings);
   ASSERT_FALSE(other.has_value());
-  EXPECT_EQ(other.error().front().detail, "payload: no link 'left_panda_hand' in the robot");
+  EXPECT_EQ(other.error().front().detail, "no link 'left_panda_hand' in the robot");
   const auto negative = Plant::create(cell, {RobotId{0}, in_hand(-1.0), false}, warnings);
   ASSERT_FALSE(negative.has_value());
   EXPECT_THAT(negative.error().front().detail, testing::HasSubstr("-1 kg"));
+}
+
+TEST(Plant, RefusesAPayloadThatTheDrivesCannotHold) {
+  const CellPtr cell = config_cell("two_pandas");
+  Problems warnings;
+  const auto create = [&](double mass_kg) {
+    return Plant::create(cell, {RobotId{0}, in_hand(mass_kg), false}, warnings);
+  };
+  const auto refused = create(1e9);
+  ASSERT_FALSE(refused.has_value());
+  const std::string detail = refused.error().front().detail;
+  std::printf("%s\n", detail.c_str());
+  const std::string words = "the drives can hold at most ";
+  ASSERT_THAT(detail, testing::HasSubstr(words));
+  const double most_kg = std::stod(detail.substr(detail.find(words) + words.size()));
+  EXPECT_FALSE(create(most_kg + 0.1).has_value());
+  auto held = create(most_kg - 0.5);
+  ASSERT_TRUE(held.has_value()) << held.error().front().detail;
+  const Eigen::VectorXd home = held->state().position;
+  for (int i = 0; i < 5000; ++i) {
+    (void)held->step(kPeriod, home, Eigen::VectorXd::Zero(home.size()));
+  }
+  EXPECT_LT((held->state().position - home).cwiseAbs().maxCoeff(), 1e-3) << "holds it";
+  EXPECT_GT(most_kg, 3.0) << "the payload of a Panda";
 }
 
 // Fails only if the plant is slower than real time; prints the figures.

@@ -50,14 +50,64 @@ TEST_F(AnswerForm, ExplainsThatALostControllerMustConnectFirst) {
   next_job(listener, "wave", [](const json& told) { return !told["waits_on"].empty(); });
   const std::string why = ask("/jobs/wave", "Accept: text/plain\r\n").body;
   EXPECT_NE(why.find("the controller of arm left to connect again"), std::string::npos) << why;
-  EXPECT_NE(why.find(" Reconnect the controller of arm left first. If an arm is still stopped when "
-                     "its link is up: POST /api/v1/resume"),
+  EXPECT_NE(why.find(" Start the controller of arm left again, or repair its connection. If an arm "
+                     "is still stopped when its link is up: POST /api/v1/resume"),
             std::string::npos)
       << why;
   ASSERT_EQ(remove("/api/v1/sim/faults/1").status, 204);
   until_arm("left", "link", "up");
   EXPECT_NE(ask("/jobs/wave", "Accept: text/plain\r\n").body.find("for arm left to be resumed. "),
             std::string::npos);
+}
+
+TEST_F(AnswerForm, ExplainsWhyAJobWithoutALinkNeitherMovesNorEnds) {
+  const std::string as_text = "Accept: text/plain\r\n";
+  start(1.0);
+  until_arm("left", "link", "up");
+  test::Listener listener(port());
+  ASSERT_EQ(post("/api/v1/jobs", job("wave", kHome, kAside, "left", 20.0).dump()).status, 202);
+  next_job(listener, "wave", [](const json& told) { return told["state"] == "running"; });
+  ASSERT_EQ(post("/api/v1/sim/faults", R"({"arm": "left", "kind": "drop_feedback"})").status, 201);
+  until_arm("left", "link", "lost");
+  until_arm("left", "state", "stopped");
+  const std::string why = ask("/jobs/wave", as_text).body;
+  for (const char* words : {"It waits for the controller of arm left to connect again, and for the "
+                            "arm to be resumed. (link lost: ",
+                            " Start the controller of arm left again, or repair its connection",
+                            "POST /api/v1/resume"}) {
+    EXPECT_NE(why.find(words), std::string::npos) << words << ": " << why;
+  }
+  EXPECT_EQ(why.find("brakes on its path"), std::string::npos) << "nobody knows: " << why;
+  const std::string canceled = ask("/jobs/wave", as_text, "DELETE").body;
+  for (const std::string& text : {canceled, ask("/jobs/wave", as_text).body}) {
+    EXPECT_NE(text.find(" It ends when its controller reports again. Start the controller of arm "
+                        "left again, or repair its connection ("),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("resume"), std::string::npos) << "it has no more to do: " << text;
+  }
+  ASSERT_EQ(remove("/api/v1/sim/faults/1").status, 204);
+  next_job(listener, "wave", [](const json& told) { return !told["result"].is_null(); });
+}
+
+TEST_F(AnswerForm, ArmsNameTheirStopAndTheirLink) {
+  const std::string as_text = "Accept: text/plain\r\n";
+  start(1.0);
+  until_arm("left", "link", "up");
+  EXPECT_NE(ask("/arms/right/stop", as_text, "POST").body.find("  stopped: operator\n"),
+            std::string::npos);
+  ASSERT_EQ(post("/api/v1/sim/faults", R"({"arm": "left", "kind": "cut"})").status, 201);
+  until_arm("left", "state", "stopped");
+  const std::string arms = ask("/arms", as_text).body;
+  EXPECT_TRUE(arms.substr(0, arms.find('\n')).ends_with("  NOTE")) << arms;
+  EXPECT_NE(arms.find("  stopped: link lost: "), std::string::npos) << arms;
+  EXPECT_NE(arms.find("; link lost: "), std::string::npos) << arms;
+  EXPECT_NE(arms.find("  stopped: operator\n"), std::string::npos) << arms;
+  const std::string stopped = ask("/stop", as_text, "POST").body;
+  EXPECT_NE(
+      stopped.find("\narm left gets no command, because there is no link to its controller ("),
+      std::string::npos)
+      << stopped;
 }
 
 TEST_F(AnswerForm, ExplainsThatAControllerMustBeStarted) {
@@ -78,7 +128,8 @@ TEST_F(AnswerForm, ExplainsThatAControllerMustBeStarted) {
   const std::string why = ask("/jobs/wave", "Accept: text/plain\r\n").body;
   EXPECT_NE(why.find("It waits for the controller of arm left to connect."), std::string::npos)
       << why;
-  EXPECT_NE(why.find(" Start the controller of arm left first"), std::string::npos) << why;
+  EXPECT_NE(why.find(" Start the controller of arm left (no answer from "), std::string::npos)
+      << why;
 }
 
 TEST_F(AnswerForm, IsTextIfTheClientPrefersIt) {

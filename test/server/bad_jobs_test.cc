@@ -58,6 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadJobCase{"BrokenJson",
                    [] { return std::string(R"({"trajectory": {"points": [{"positions": [0, 1)"); },
                    400, "/trajectory/points/0/positions/2", "ends before"},
+        BadJobCase{"YamlAsJson", [] { return std::string("name: reach"); }, 400, "",
+                   "for YAML, send the header Content-Type: application/yaml"},
         BadJobCase{"WrongContentType", [] { return good().dump(); }, 415, "Content-Type",
                    "text/plain", "text/plain"},
         BadJobCase{"StartElsewhere",

@@ -63,12 +63,12 @@ TEST_F(Framing, ServesPipelinedRequests) {
   start(1.0);
   const std::string answer = answers_to(
       "GET /healthz HTTP/1.1\r\nHost: [::1]:8080\r\n\r\n"
-      "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: "
+      "PUT /api/v1/speed HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: "
       "Chunked\r\n\r\n5\r\nhello\r\n0\r\n\r\n"
       "HEAD /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
       "GET /healthz HTTP/1.0\r\n\r\n");
   EXPECT_EQ(count(answer, "HTTP/1.1 200 OK"), 2) << answer;
-  EXPECT_EQ(count(answer, "HTTP/1.1 202 Accepted"), 1) << answer;
+  EXPECT_EQ(count(answer, "HTTP/1.1 415 "), 1) << answer;  // no Content-Type
   EXPECT_EQ(count(answer, "HTTP/1.0 200 OK"), 1) << answer;
   EXPECT_EQ(count(answer, "{\"status\":\"ok\"}"), 2) << answer;  // the answer to HEAD has no body
 }
@@ -101,11 +101,11 @@ TEST_F(Framing, AnswersExpect100Continue) {
   start(1.0);
   test::Wire wire(port());
   wire.send(
-      "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: "
-      "2\r\n\r\n");
+      "PUT /api/v1/speed HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+      "Expect: 100-continue\r\nContent-Length: 21\r\n\r\n");
   EXPECT_EQ(wire.take_until("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
-  wire.send("{}");
-  EXPECT_EQ(test::read_answer(wire).status, 202);
+  wire.send(R"({"speed_override": 1})");
+  EXPECT_EQ(test::read_answer(wire).status, 200);
 }
 
 TEST_F(Framing, RefusesOtherOrigins) {

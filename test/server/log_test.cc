@@ -94,6 +94,36 @@ TEST_F(RequestLog, RecordsCommandsWithTheirRequestId) {
   EXPECT_TRUE(told) << "alerts stand in it, too";
 }
 
+// Late feedback stops no arm by itself; its lost link does.
+TEST_F(RequestLog, RecordsFindingsThatStopAnArm) {
+  begin(LoggedRequests::none);
+  ASSERT_EQ(post("/api/v1/sim/faults", R"({"arm": "left", "kind": "drift"})").status, 201);
+  ASSERT_EQ(post("/api/v1/sim/faults", R"({"arm": "right", "kind": "drop_feedback"})").status, 201);
+  const auto findings = [](const json& list, const char* text, const char* level) {
+    std::vector<json> found;
+    for (const json& one : list) {
+      const bool is_finding = one[text].get<std::string>().starts_with("monitor: ");
+      if (is_finding && one["level"] == level) found.push_back(one);
+    }
+    return found;
+  };
+  std::vector<json> stopping, others;
+  for (int i = 0; i < 10'000 && (stopping.empty() || others.empty()); ++i) {
+    const json alerts = get("/api/v1/alerts").json()["alerts"];
+    stopping = findings(alerts, "text", "error");
+    others = findings(alerts, "text", "warning");
+  }
+  ASSERT_FALSE(stopping.empty());
+  ASSERT_FALSE(others.empty());
+  const std::scoped_lock lock(mutex_);
+  const auto logged = findings(lines_, "message", "error");
+  ASSERT_FALSE(logged.empty());
+  EXPECT_EQ(logged.front()["stopped"], "left");
+  EXPECT_TRUE(std::ranges::any_of(
+      stopping, [&](const json& alert) { return alert["text"] == logged.front()["message"]; }));
+  EXPECT_TRUE(findings(lines_, "message", "warning").empty());
+}
+
 TEST_F(RequestLog, UsesTheClientsRequestIdIfValid) {
   begin(LoggedRequests::all);
   const auto ask = [&](const std::string& field) {

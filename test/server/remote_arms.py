@@ -75,14 +75,16 @@ def case_says_why_a_robot_does_not_fit(cell, options):
               "drives_on": True, "at_rest": True}
     answers = [({**fits, "robot": "right"}, 'robot "right" answers at unix:'),
                ({**fits, "protocol": 2}, "speaks version 2 of the protocol, this server version 1"),
-               ({**fits, "feedback_period_s": 0.5}, "promises a feedback_period_s of 0.5"),
+               ({**fits, "feedback_period_s": 0.5}, "promises a feedback_period_s of 0.5 s, but the cell file relies on "
+                "0.004 s: raise controller.feedback_period_s in the cell file, or send reports more often"),
+               (fits, ": connected, but no report for "),
                ({**fits, "arms": [{"name": "left", "joints": joints[1:]}]}, "the joints of arm"),
                ({**fits, "arms": []}, "has 0 arms"),
                ({**fits, "speed": 1}, "/speed: "),
                ({"type": "error", "pointer": "/session", "detail": "in use"}, "refused the connection: /session: in use"),
                (report, "before its welcome"),
                ([fits, report], 'reports 1 positions of arm "left", which has 8 joints'),
-               ("nonsense", "sent a bad message")]
+               ("nonsense", "sent a bad message: line 1, column 1: this is not JSON")]
     answer, said = answers[0]
     listening = socket.socket(socket.AF_UNIX)
     listening.bind(cell.proxies["left"].target)
@@ -109,7 +111,8 @@ def case_refuses_bad_input(cell, options):
     for arguments, said in [
             (["serve", "--cell", str(cell.file), "--listen", "127.0.0.1:0", "--speed", "2"], "--speed: robot left has a remote"),
             ([*arm, "left.sock"], "--listen: not an endpoint: expected unix:PATH or tcp:HOST:PORT"),
-            ([*arm, f"unix:{cell.folder}/left-robot.sock"], "Address already in use"),
+            ([*arm, f"unix:{cell.folder}/left-robot.sock"], "another process listens there"),
+            ([*arm, f"unix:{cell.file}"], "the file exists and is no socket of an arm"),
             ([*arm, f"unix:{cell.folder}/none/left.sock"], "No such file or directory"),
             (["arm", "--cell", str(cell.file), "--robot", "middle", "--listen", "tcp:127.0.0.1:0"],
              "--robot: the cell has no such robot; it has: left, right (found \"middle\")"),

@@ -15,7 +15,7 @@ from killed_server import API, ROOT, swing
 PATIENCE_S = 120.0  # then the test hangs
 ENDED = ("succeeded", "failed", "canceled", "interrupted")
 # Causes of a stop on a machine that is too busy.
-LATE = re.compile(r"link lost: (the last report is|no answer from|.* sent no welcome)"
+LATE = re.compile(r"link lost: (the last report is|no answer from|.* connected, but no report|.* sent no welcome)"
                   "|fault: the connection broke before the controller accepted the motion")
 
 

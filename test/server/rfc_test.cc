@@ -23,8 +23,9 @@ class Rfc : public test::RunningServer {
 // RFC 9110, 10.1.1.
 TEST_F(Rfc, Http10NeverGets100Continue) {
   const std::string answer = answers_to(
-      "POST /api/v1/resume HTTP/1.0\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n{}");
-  EXPECT_TRUE(answer.starts_with("HTTP/1.0 202 ")) << answer;
+      "PUT /api/v1/speed HTTP/1.0\r\nContent-Type: application/json\r\nExpect: 100-continue\r\n"
+      "Content-Length: 21\r\n\r\n{\"speed_override\": 1}");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.0 200 ")) << answer;
 }
 
 // RFC 9110, 10.1.1.

@@ -34,7 +34,8 @@ TEST_F(ValidateCommand, PrintsTheEndpointOfARemoteRobot) {
   const Outcome outcome = run("validate --cell " + cell.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("; controller sim, lag"));
-  EXPECT_THAT(outcome.out, HasSubstr("; controller remote at tcp:10.0.0.7:4000, lag"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("; controller remote at tcp:10.0.0.7:4000; when simulated: lag 0"));
 }
 
 TEST_F(ValidateCommand, PrintsWhatEachPromiseCosts) {
@@ -44,10 +45,36 @@ TEST_F(ValidateCommand, PrintsWhatEachPromiseCosts) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("tracking error 0.01 rad (m): adds "), std::string::npos);
   EXPECT_NE(outcome.out.find("tracking error 0.001 rad"), std::string::npos) << "the other robot";
-  EXPECT_NE(outcome.out.find("lost after 1 s: the server grants 1.121 s of path more"),
+  EXPECT_NE(outcome.out.find("lost after 1 s: the authority reaches 1.121 s (at planned speed) "
+                             "beyond the stopping point"),
             std::string::npos);
-  EXPECT_NE(outcome.out.find("lost after 0.1 s: the server grants 0.27 s of path more"),
+  EXPECT_NE(outcome.out.find("lost after 0.1 s: the authority reaches 0.27 s (at planned speed)"),
             std::string::npos);
+}
+
+// The longest way of a point at full speed: velocity x reaction; with braking, velocity x (reaction
+// + velocity / (2 x brake)).
+TEST_F(ValidateCommand, SeparatesTheCostsOfReactionAndBraking) {
+  const auto costs_mm = [&](double reaction_s) {
+    const fs::path cell = changed_cell("/robots/0/controller", {{"reaction_s", reaction_s}});
+    const Outcome outcome = run("validate --cell " + cell.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string text = outcome.out.substr(outcome.out.find("  reaction "));
+    const auto number_after = [&](const std::string& words) {
+      const std::size_t at = text.find(words);
+      EXPECT_NE(at, std::string::npos) << text;
+      return std::stod(text.substr(at + words.size()));
+    };
+    const double before = number_after("farthest point moves ");
+    EXPECT_LT(text.find(" before the arm brakes; with braking, it stops after "), text.find('\n'));
+    const std::string total = text.substr(text.find("it stops after "));
+    return std::pair(before, std::stod(total.substr(total.find(" and ") + 5)));
+  };
+  const auto [short_mm, short_total_mm] = costs_mm(0.02);
+  const auto [long_mm, long_total_mm] = costs_mm(0.1);
+  EXPECT_NEAR(long_mm, 5.0 * short_mm, 1.0);
+  EXPECT_NEAR(long_total_mm - short_total_mm, long_mm - short_mm, 1.0);
+  EXPECT_GT(short_total_mm, short_mm);
 }
 
 TEST_F(ValidateCommand, MarksDefaultLimits) {

@@ -67,6 +67,25 @@ TEST_F(Verbs, FaultyStopIsRefusedAndStopsAllTheSame) {
   }
 }
 
+TEST_F(Verbs, RequestWithABodyThatItDoesNotReadIsRefusedAndDoesNothing) {
+  start(1.0);
+  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
+  for (const std::string path : {"/api/v1/resume", "/api/v1/arms/left/resume"}) {
+    const auto refused = post(path, R"({"arms": ["left"]})");
+    expect_refused(refused, 400, "request body", nullptr);
+    const std::string detail = refused.json()["detail"];
+    EXPECT_TRUE(detail.starts_with("this request has no body: remove it")) << detail;
+    EXPECT_EQ(get("/api/v1/queue").json()["stopped"], true) << path;
+    EXPECT_EQ(get("/api/v1/arms/left").json()["state"], "stopped") << path;
+  }
+  EXPECT_NE(post("/api/v1/resume", "[]").body.find("/arms/{name}/resume"), std::string::npos);
+  ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, kAside).dump()).status, 202);
+  expect_refused(test::request(port(), "DELETE", "/api/v1/jobs/l", "{}"), 400, "request body",
+                 nullptr);
+  EXPECT_EQ(get("/api/v1/jobs/l").json()["result"], nullptr) << "not canceled";
+  EXPECT_EQ(post("/api/v1/resume", "").status, 202);
+}
+
 TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   start(1.0);
   test::Listener listener(port());

@@ -7,6 +7,7 @@
 #include "server/codec/stream_id.h"
 #include "server/messages/events.h"
 #include "server/messages/job.h"
+#include "server/messages/plain_text.h"
 #include "server/messages/problem.h"
 
 namespace armloom {
@@ -64,6 +65,46 @@ TEST(Views, SimulatedEventHasNoWallTime) {
   const Event event{7, at(milliseconds(26682)), Alert{Alert::Level::warning, "x"}};
   EXPECT_EQ(event_json(event, "s", nullptr), R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
                                              R"("data":{"level":"warning","text":"x"}})");
+}
+
+json ended_by(const char* reason, double ended_s) {
+  return {{"id", "a"},
+          {"state", "interrupted"},
+          {"arms", {"left"}},
+          {"started_s", 1.0},
+          {"ended_s", ended_s},
+          {"ended_at", "2026-11-23T15:04:05.678Z"},
+          {"result", {{"reason", reason}, {"detail", "it ended"}}}};
+}
+
+TEST(Texts, JobThatALaterSessionEndedHasNoDuration) {
+  const std::string begin = "Job a of arm left ended as interrupted at 2026-11-23T15:04:05.678Z: ";
+  EXPECT_EQ(job_text(ended_by("canceled", 3.5), {}),
+            begin + "canceled, it ended. It took 2.5 s from its start to its end.\n");
+  EXPECT_EQ(job_text(ended_by("server_restart", 3.5), {}),
+            begin + "server_restart, it ended. It took 2.5 s from its start to its end.\n");
+  EXPECT_EQ(job_text(ended_by("server_restart", 1.0), {}),
+            begin + "server_restart, it ended. The server did not see when it came to rest.\n");
+}
+
+TEST(Texts, MonitorEventShowsItsFinding) {
+  MonitorEvent found;
+  found.text = "left_panda_joint1 is 0.02 rad off its path, limit 0.001 rad";
+  found.arms = found.stopped = {"left"};
+  found.finding.kind = MonitorFinding::Kind::deviation;
+  const Event event{7, at(milliseconds(2500)), found};
+  EXPECT_EQ(event_text(json::parse(event_json(event, "s", nullptr))),
+            "     2.500  monitor  left_panda_joint1 is 0.02 rad off its path, limit 0.001 rad; "
+            "stopped: left\n");
+}
+
+TEST(Texts, FaultWithoutAValueShowsADash) {
+  const json stall = {{"id", "1"}, {"arm", "left"}, {"kind", "stall"}, {"value", 0.0}};
+  EXPECT_EQ(fault_text(stall, {}),
+            "FAULT  ARM   KIND   VALUE  STARTS  REMAINING\n"
+            "1      left  stall  -      now     -\n");
+  const json slow = {{"id", "2"}, {"arm", "left"}, {"kind", "slow"}, {"value", 0.0}};
+  EXPECT_NE(fault_text(slow, {}).find("  slow  0  "), std::string::npos);
 }
 
 TEST(Problems, AreWrittenAsDocumentsAndSentences) {
