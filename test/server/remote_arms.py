@@ -84,7 +84,7 @@ def case_says_why_a_robot_does_not_fit(cell, options):
                ({"type": "error", "pointer": "/session", "detail": "in use"}, "refused the connection: /session: in use"),
                (report, "before its welcome"),
                ([fits, report], 'reports 1 positions of arm "left", which has 8 joints'),
-               ("nonsense", "sent a bad message: line 1, column 1: this is not JSON")]
+               ("nonsense", "sent a bad message: line 1, column 2: this is not JSON")]
     answer, said = answers[0]
     listening = socket.socket(socket.AF_UNIX)
     listening.bind(cell.proxies["left"].target)
