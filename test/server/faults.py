@@ -170,7 +170,7 @@ FAULTS = {'server_store_test': [
     ('dropped feedback goes on', FAULTY, 'if (active(Kind::drop_feedback)) return nullptr;', 'if (!FAULT && active(Kind::drop_feedback)) return nullptr;'),
     ('a stalled arm takes authority', FAULTY, 'if (active(Kind::stall)) allowed', 'if (!FAULT && active(Kind::stall)) allowed'),
 ], 'scheduler_test': [
-    ('an arm that is resumed beside its path goes on', 'core/scheduler/scheduler.cc', '    rejoin(state, arm);\n', '    if (!FAULT) rejoin(state, arm);\n'),
+    ('an arm that is resumed beside its path goes on', 'core/scheduler/scheduler.cc', 'for (ArmId arm : input.arms) rejoin(state, arm);', 'for (ArmId arm : input.arms) if (!FAULT) rejoin(state, arm);'),
     ('an arm that pauses beside its path goes on', 'core/scheduler/scheduler.cc', 'arms()) rejoin(state_, arm);', 'arms()) if (!FAULT) rejoin(state_, arm);'),
     ('an arm ahead of its team counts as beside its path', 'core/scheduler/rejoining.cc', 'at < record.farthest;', '!FAULT && at < record.farthest;'),
     ('certificates allow for one measurement of two', ERRORS, 'off_path + 2.0 * tracking_error', 'off_path + (FAULT ? 1.0 : 2.0) * tracking_error'),

@@ -207,8 +207,10 @@ def case_server_is_frozen(cell, options):
         wait_for(lambda proxy=proxy: proxy.last["phase"] == "stopped", f"a brake of {arm}")
         assert proxy.last["commanded_ns"] < 6_000_000_000, "did not brake"
     cell.server.send_signal(signal.SIGCONT)
-    for arm in cell.proxies:
+    for arm, proxy in cell.proxies.items():
         wait_for(lambda arm=arm: cell.arm(arm)["link"] == "up", f"the link of {arm}")
+        wait_for(lambda arm=arm: cell.arm(arm)["state"] == "stopped", f"a stop of {arm}")
+        assert proxy.last["phase"] == "stopped", f"{arm} moved on without a resume"
 
 
 CASES = {name[5:]: case for name, case in list(globals().items()) if name.startswith("case_")}
