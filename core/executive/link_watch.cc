@@ -16,7 +16,8 @@ std::vector<LinkWatch::Change> LinkWatch::look(const Motions& motions) {
                                                                   : Seen::waiting;
     const Seen before = std::exchange(seen_[a], now);
     const bool stopped = is_up && link.stopped_by_itself();
-    if (stopped && !stopped_[a] && before == Seen::up) changes.push_back({ArmId{a}, Kind::stopped, ""});
+    if (stopped && !stopped_[a] && before == Seen::up)
+      changes.push_back({ArmId{a}, Kind::stopped, ""});
     stopped_[a] = stopped;
     const bool is_news = before != now || (now == Seen::waiting && details_[a] != link.detail());
     details_[a] = link.detail();

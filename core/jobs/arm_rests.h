@@ -70,7 +70,7 @@ class ArmRests {
  private:
   Configuration rest_;
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
-  std::vector<std::vector<ArmId>> may_meet_;       // per arm; empty: its position is known
+  std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of arms that are lost
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves

@@ -12,7 +12,7 @@ namespace armloom {
 // most one is open; the next one may be sent when it is answered (ways/path_requests.h).
 struct PathRequest {
   std::optional<std::uint64_t> question = {};  // number of the open question
-  // Positions of all arms in the last question. Empty: there is none, or its answer fits nowhere.
+  // Positions of all arms in the last question. Without entries, no answer is up to date.
   Configuration beside = {};
   Version asked_at = 0;  // version of the last question
   int tries = 0;         // questions since the owner last reset this

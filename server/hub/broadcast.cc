@@ -9,8 +9,8 @@ namespace armloom {
 
 namespace {
 
-// Returns the line of an alert. A finding of the monitor that stops no arm has none: noise could
-// cause many each second.
+// Returns the line of an alert or of a finding of the monitor that stops an arm, else nullopt:
+// noise could cause many other findings each second.
 std::optional<LogLine> line_of(const Event& event) {
   const auto alert = alert_of(event);
   if (!alert) return std::nullopt;

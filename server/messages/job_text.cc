@@ -189,7 +189,7 @@ std::string ended_text(const Schema& job) {
   return text + "." + time_from_start_to_end(job);
 }
 
-// Of a job whose arms brake. The last report of an arm without a link may be old.
+// Describes a job whose arms brake. The last report of an arm without a link may be old.
 std::string braking_text(const Schema& job, const Present& now) {
   std::string absent;
   for (const Schema& name : list_at(job, "arms")) {
