@@ -59,7 +59,7 @@ class ArmLink {
   // a motion was commanded since. A new connection forgets the brake.
   [[nodiscard]] std::optional<TimePoint> braking_since() const { return braking_since_; }
   // Returns true if the arm was stopped on its motion although no brake was commanded: its
-  // controller has received nothing from the server for too long, or somebody else stopped the arm.
+  // controller has received nothing from the server for too long, or an operator stopped it there.
   [[nodiscard]] bool stopped_by_itself() const;
   // Returns the last report, seen through the commands since: a motion that the controller has not
   // acknowledged is `waiting`, a motion that it has lost or rejected is a `fault`.
