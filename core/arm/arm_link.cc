@@ -170,6 +170,8 @@ void ArmLink::hear(const ArmFeedback& report, TimePoint now) {
     ++ignored_;
     return;
   }
+  // A controller that has forgotten commands was restarted.
+  if (report.acknowledged < heard_.acknowledged) connected_anew();
   if (is_new_) synchronize(report);
   const Duration took = now.time_since_epoch() - report.controller_time;
   if (fastest_) {

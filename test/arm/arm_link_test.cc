@@ -342,6 +342,23 @@ TEST_F(Link, ReportsAFaultIfTheControllerWasRestarted) {
   EXPECT_EQ(controller.sent.back().number, 1u) << "continues the controller's numbers";
 }
 
+// Its first reports after the restart were old ones.
+TEST_F(Link, ContinuesTheNumbersOfAControllerThatForgotCommands) {
+  come_up();
+  follow();
+  acknowledged = 1;
+  report(Phase::moving, 10ms);
+  acknowledged = 0;
+  report(Phase::idle);
+  EXPECT_EQ(link.state(), State::up);
+  EXPECT_EQ(link.feedback().phase, Phase::fault);
+  link.command(ArmCommand::Release{});
+  controller.sent.clear();
+  follow();
+  ASSERT_FALSE(controller.sent.empty());
+  EXPECT_EQ(controller.sent.front().number, 1U) << "the number that it expects";
+}
+
 TEST_F(Link, ReportsAFaultIfTheControllerForgetsAMotionThatItAccepted) {
   come_up();
   follow();
