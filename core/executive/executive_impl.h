@@ -108,7 +108,7 @@ class Executive::Impl {
   void take(const MotionReport& report);
   void watch();
   void watch_links();
-  void lose(ArmId arm);
+  void tell_unlocated(ArmId arm);
   void locate(ArmId arm);
   void act_on(const std::vector<MonitorFinding>& found);
   void scene_has_changed(ClearanceQuery& query);

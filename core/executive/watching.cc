@@ -70,7 +70,7 @@ void Executive::Impl::watch() {
   }
   act_on(found);
   for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().rests_elsewhere(arm) || scheduler_.is_lost(arm)) locate(arm);
+    if (watch_.premises().rests_elsewhere(arm) || scheduler_.is_unlocated(arm)) locate(arm);
   }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
@@ -84,14 +84,14 @@ void Executive::Impl::watch_links() {
     const std::string& arm = cell_->arm(change.arm).name;
     switch (change.kind) {
       case Kind::waits:
-        lose(change.arm);
+        tell_unlocated(change.arm);
         step(Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
         publisher_.tell(
             Alert{Alert::Level::info, arm + " waits for its controller: " + change.detail},
             clock_.now);
         break;
       case Kind::in_use:
-        lose(change.arm);
+        tell_unlocated(change.arm);
         stop({change.arm}, "its controller served another server: " + change.detail);
         break;
       case Kind::lost:
@@ -117,7 +117,7 @@ void Executive::Impl::watch_links() {
 }
 
 // Tells the scheduler that the arm may be anywhere.
-void Executive::Impl::lose(ArmId arm) {
+void Executive::Impl::tell_unlocated(ArmId arm) {
   std::vector<ArmId> may_meet;
   for (const ArmId other : all_arms(*cell_)) {
     if (other != arm && !scene_.scene()->out_of_reach(arm, other)) may_meet.push_back(other);
@@ -132,7 +132,7 @@ void Executive::Impl::locate(ArmId arm) {
   const Eigen::VectorXd off =
       link.feedback().measured - joints_of(scheduler_.rest(), execution_.motions().joints(arm));
   const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
-  if (is_there && !scheduler_.is_lost(arm)) return;
+  if (is_there && !scheduler_.is_unlocated(arm)) return;
   step(Located{arm, link.feedback().measured});
 }
 

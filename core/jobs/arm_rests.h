@@ -30,13 +30,13 @@ class ArmRests {
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
   // Stores that the arm was found at `position` (Located).
   void locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position);
-  // Stores that the arm may be anywhere until found(), and which other arms it could meet.
-  void lose(ArmId arm, std::vector<ArmId> may_meet) {
+  // Stores that the arm may be anywhere until set_located(), and which other arms it could meet.
+  void set_unlocated(ArmId arm, std::vector<ArmId> may_meet) {
     may_meet_[arm.index()] = std::move(may_meet);
   }
   // Returns the arms that it could have met.
-  std::vector<ArmId> found(ArmId arm) { return std::exchange(may_meet_[arm.index()], {}); }
-  [[nodiscard]] bool is_lost(ArmId arm) const { return !may_meet_[arm.index()].empty(); }
+  std::vector<ArmId> set_located(ArmId arm) { return std::exchange(may_meet_[arm.index()], {}); }
+  [[nodiscard]] bool is_unlocated(ArmId arm) const { return !may_meet_[arm.index()].empty(); }
   // Returns an arm that may be anywhere and that this arm could meet; nullopt if there is none.
   [[nodiscard]] std::optional<ArmId> unlocated_beside(ArmId arm) const;
   // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
@@ -70,7 +70,7 @@ class ArmRests {
  private:
   Configuration rest_;
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
-  std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of arms that are lost
+  std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of unlocated arms
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves

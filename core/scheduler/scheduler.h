@@ -90,7 +90,7 @@ class Scheduler {
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   // Returns true if the arm's position is not known (Unlocated).
-  [[nodiscard]] bool is_lost(ArmId arm) const { return state_.arms.is_lost(arm); }
+  [[nodiscard]] bool is_unlocated(ArmId arm) const { return state_.arms.is_unlocated(arm); }
   // Returns nullopt if the arm is not stopped.
   [[nodiscard]] const std::optional<ArmRests::StopOfArm>& stop_of(ArmId arm) const {
     return state_.arms.stop_of(arm);

@@ -1,82 +1,13 @@
 // The state machine between the server and one controller, with reports made by hand.
-#include "core/arm/arm_link.h"
-
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
-
-#include "test/arm/arm_fixture.h"
+#include "test/arm/link_fixture.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-using Phase = ArmFeedback::Phase;
-using State = ArmLink::State;
-
-// A controller that reports what the test says.
-class HandController final : public ArmController {
- public:
-  [[nodiscard]] const std::vector<JointId>& joints() const override { return joints_; }
-  void send(const ArmCommand& command) override { sent.push_back(command); }
-  [[nodiscard]] const ArmFeedback* poll(TimePoint) override {
-    if (reports.empty()) return nullptr;
-    last_ = std::move(reports.front());
-    reports.erase(reports.begin());
-    return &last_;
-  }
-  [[nodiscard]] ArmConnection connection() const override { return connected; }
-
-  std::vector<ArmCommand> sent;
-  std::vector<ArmFeedback> reports;
-  ArmConnection connected;
-
- private:
-  std::vector<JointId> joints_{JointId{0}, JointId{1}};
-  ArmFeedback last_;
-};
-
-class Link : public ::testing::Test {
- protected:
-  // Passes a cycle of 1 ms.
-  void pass() { link.exchange(controller, now += 1ms); }
-  void pass(Duration time) {
-    for (const TimePoint end = now + time; now < end;) pass();
-  }
-  // A report that left the controller `delay` ago.
-  void report(Phase phase = Phase::idle, Duration progress = {}, Duration delay = {}) {
-    ArmFeedback feedback;
-    feedback.sequence = ++sequence;
-    feedback.controller_time = (now + 1ms - delay).time_since_epoch() + 17s;  // another clock
-    feedback.acknowledged = acknowledged;
-    feedback.phase = phase;
-    feedback.measured = Eigen::VectorXd::Zero(2);
-    feedback.commanded_progress = feedback.measured_progress = progress;
-    feedback.settled = settled;
-    controller.reports.push_back(feedback);
-    pass();
-  }
-  void come_up() {
-    report();
-    ASSERT_EQ(link.state(), State::up);
-  }
-  void follow(Duration authority = 1s) {
-    link.command(ArmCommand::Follow{trajectory, now, 0s, authority});
-    link.flush(controller);
-  }
-
-  std::mt19937_64 random{1};
-  CellPtr cell = two_arm_cell();
-  TrajectoryPtr trajectory = random_trajectory(*cell, joints_of(*cell, kLeft), {kLeft}, random);
-  ControllerDescription promises{.feedback_timeout = 100ms};
-  ArmLink link{promises, Eigen::VectorXd::Zero(2)};
-  HandController controller;
-  TimePoint now{};
-  std::uint64_t sequence = 0;
-  CommandNumber acknowledged = 0;
-  bool settled = false;
-};
+using test::Link;
+using test::Phase;
+using test::State;
 
 TEST_F(Link, ConnectsWithTheFirstReport) {
   pass(1s);
@@ -296,107 +227,6 @@ TEST_F(Link, KnowsAnArmThatItsControllerStopped) {
   link.command(ArmCommand::Brake{});
   link.flush(controller);
   EXPECT_FALSE(link.stopped_by_itself());
-}
-
-TEST_F(Link, DropsCommandsOfABrokenConnection) {
-  come_up();
-  follow();
-  controller.connected = {false, "broken", 1};
-  pass(200ms);
-  controller.connected = {true, "", 2};
-  controller.sent.clear();
-  sequence = 0;
-  report();  // the controller has not seen the motion
-  EXPECT_EQ(link.state(), State::up);
-  EXPECT_EQ(link.feedback().phase, Phase::fault);
-  pass(40ms);
-  EXPECT_TRUE(controller.sent.empty());
-}
-
-TEST_F(Link, RecognizesAMotionThatSurvivedABrokenConnection) {
-  come_up();
-  follow();
-  controller.connected = {false, "broken", 1};
-  pass(200ms);
-  controller.connected = {true, "", 2};
-  sequence = 0;
-  acknowledged = 1;
-  report(Phase::stopped, 300ms);
-  EXPECT_EQ(link.feedback().phase, Phase::stopped);
-  EXPECT_EQ(link.feedback().measured_progress, 300ms);
-}
-
-TEST_F(Link, ReportsAFaultIfTheControllerWasRestarted) {
-  come_up();
-  follow();
-  acknowledged = 1;
-  report(Phase::moving, 5ms);
-  controller.connected = {true, "", 2};
-  sequence = 0;
-  acknowledged = 0;
-  report(Phase::idle);
-  EXPECT_EQ(link.feedback().phase, Phase::fault);
-  link.command(ArmCommand::Release{});
-  link.flush(controller);
-  EXPECT_EQ(link.feedback().phase, Phase::idle);
-  EXPECT_EQ(controller.sent.back().number, 1u) << "continues the controller's numbers";
-}
-
-// Its first reports after the restart were old ones.
-TEST_F(Link, ContinuesTheNumbersOfAControllerThatForgotCommands) {
-  come_up();
-  follow();
-  acknowledged = 1;
-  report(Phase::moving, 10ms);
-  acknowledged = 0;
-  report(Phase::idle);
-  EXPECT_EQ(link.state(), State::up);
-  EXPECT_EQ(link.feedback().phase, Phase::fault);
-  link.command(ArmCommand::Release{});
-  controller.sent.clear();
-  follow();
-  ASSERT_FALSE(controller.sent.empty());
-  EXPECT_EQ(controller.sent.front().number, 1U) << "the number that it expects";
-}
-
-TEST_F(Link, ReportsAFaultIfTheControllerForgetsAMotionThatItAccepted) {
-  come_up();
-  follow();
-  acknowledged = 1;
-  report(Phase::moving, 5ms);
-  report(Phase::idle);
-  EXPECT_EQ(link.feedback().phase, Phase::fault);
-}
-
-TEST_F(Link, CommandsTheSpeedOverrideAgainOnEachNewConnectionBeforeAnyMotion) {
-  come_up();
-  link.command(ArmCommand::SetSpeed{0.5});
-  link.command(ArmCommand::SetSpeed{0.25});
-  link.flush(controller);
-  ASSERT_EQ(controller.sent.size(), 1U) << "only the last one counts";
-  controller.connected = {true, "", 2};
-  pass();
-  controller.sent.clear();
-  follow();
-  report();
-  ASSERT_EQ(controller.sent.size(), 2U);
-  const auto* speed = std::get_if<ArmCommand::SetSpeed>(&controller.sent.front().what);
-  ASSERT_NE(speed, nullptr);
-  EXPECT_EQ(speed->share, 0.25);
-}
-
-TEST_F(Link, ToleratesAClockThatDriftsSlowly) {
-  come_up();
-  for (int i = 0; i < 100'000; ++i) {
-    ArmFeedback feedback;
-    feedback.sequence = ++sequence;
-    // The controller's clock loses 0.05 %.
-    feedback.controller_time = from_seconds(0.9995 * to_seconds(now + 1ms)) + 17s;
-    feedback.measured = Eigen::VectorXd::Zero(2);
-    controller.reports.push_back(feedback);
-    pass();
-    ASSERT_EQ(link.state(), State::up) << i;
-  }
 }
 
 }  // namespace
