@@ -64,6 +64,18 @@ TEST(FaultRun, HasContactsOnlyIfTheMonitorIsOff) {
   }
 }
 
+// Long runs in which jobs waited forever. A job that any of several arms may take was the first of
+// its arm. It had no plan, because it waited for the plan on another arm, or because many such jobs
+// were ahead of it; and these waited for the jobs behind it.
+TEST(LongRun, NoJobWaitsAtTheEnd) {
+  for (const auto& [seed, policy] : {std::pair(6071U, "sequential"), {6088U, "lockstep"}}) {
+    const FaultRunResult result = run_with_faults(
+        {.seed = seed, .policy = policy, .jobs_for = std::chrono::minutes(30), .open_max = 40});
+    EXPECT_GT(result.jobs, 1000U) << seed;
+    EXPECT_EQ(result.waiting, 0U) << seed;
+  }
+}
+
 TEST(FaultRun, StopsNoArmForNoiseAndLagWithinThePromises) {
   const FaultRunResult result = run_with_faults({.seed = 7,
                                                  .policy = "earliest_start",

@@ -125,13 +125,14 @@ enum class Answered {
   stands_in,  // something that has to go before it can be planned (Job::stands_in)
   refused,
   not_yet,
+  not_asked,  // where its arm will be is not known before a job ahead of it is planned
 };
 
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(State& state, Record& record, GoalWay& way) {
   if (way.request.question) return Answered::not_yet;
   const auto at = at_its_turn(state, record, way);
-  if (!at) return Answered::not_yet;
+  if (!at) return Answered::not_asked;
   if (fits(state, way, *at)) {
     if (!way.is_planned && !way.stands_in) return Answered::refused;
     way.request.tries = 0;
@@ -149,20 +150,25 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
   return Answered::refused;
 }
 
-// All of them; where one is planned, the job can be judged.
+// All of them; where one is planned, the job can be judged. An arm on which it cannot be planned
+// yet does not keep it from going on another one: the jobs ahead of it there may wait for this one.
 Answered answer_of(State& state, Record& record) {
   Job& job = record.job;
   JobGoal& goal = *job.goal;
   bool all = true, any_stands_in = false;
-  std::optional<std::size_t> planned;
+  std::optional<std::size_t> planned, not_asked;
   for (std::size_t k = 0; k < goal.ways.size(); ++k) {
     if (!job.has_open_arm() && k != goal.taken) continue;
     const Answered answer = answer_of(state, record, goal.ways[k]);
     if (answer == Answered::not_yet) all = false;
+    if (answer == Answered::not_asked && (!not_asked || k == goal.taken)) not_asked = k;
     if (answer == Answered::stands_in) any_stands_in = true;
     if (answer == Answered::planned && (!planned || k == goal.taken)) planned = k;
   }
   if (!all) return Answered::not_yet;
+  if (not_asked && !planned && *not_asked != goal.taken)
+    take_alternative(state, record, *not_asked);  // among the jobs that it waits for
+  if (not_asked && !(planned && has_turn_on_some_arm(state, record))) return Answered::not_asked;
   if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
   if (job.has_open_arm() && *planned != goal.taken) take_alternative(state, record, *planned);
   if (!std::exchange(goal.is_planned, true)) {
@@ -173,7 +179,9 @@ Answered answer_of(State& state, Record& record) {
 }
 
 // Where the first of those lead is not known: more than there are arms would be planned in vain.
-bool is_one_of_the_first(const State& state, const Record& record) {
+// The first job of an arm is always one of them: those ahead of it may wait for jobs behind it.
+bool is_one_of_the_first(const State& state, const Record& record, std::size_t place) {
+  if (place == 0) return true;
   std::size_t before = 0;
   for (JobId id : state.jobs.undecided()) {
     const Record& other = state.jobs.at(id);
@@ -193,7 +201,7 @@ Record* plan_lane(State& state, ArmId arm) {
     if (!job.goal || job.in<Queued>() == nullptr) continue;
     // What comes of it is seen when it is answered.
     if (job.is_replanned_now()) return nullptr;
-    if (job.has_open_arm() && !is_one_of_the_first(state, record)) continue;
+    if (job.has_open_arm() && !is_one_of_the_first(state, record, i)) continue;
     const Answered answer = answer_of(state, record);
     if (answer == Answered::refused) return &record;
     if (answer != Answered::planned && !job.has_open_arm()) return nullptr;
