@@ -32,17 +32,17 @@ DiagramView shown(DiagramView view, const Diagram& diagram, const Cell& cell) {
 
 }  // namespace
 
-Result<const Job*> Drawings::known(const std::string& key, const std::string& pointer) const {
+Result<const Step*> Drawings::known(const std::string& key, const std::string& pointer) const {
   if (const auto id = jobs_.find(key)) return scheduler_.find(*id);
   return failure(Problem{ProblemKind::not_found, "no-such-job", pointer,
                          "there is no job \"" + key + "\"", key});
 }
 
-DiagramView::Side Drawings::side_of(const Job& job) const {
-  return {.job = jobs_.key(job.id),
-          .state = job.state(),
-          .duration = job.trajectory->duration(),
-          .progress = std::clamp(job.progress, Duration{}, job.trajectory->duration())};
+DiagramView::Side Drawings::side_of(const Step& step) const {
+  return {.job = jobs_.key(step.id.job),
+          .state = step.state(),
+          .duration = step.trajectory->duration(),
+          .progress = std::clamp(step.progress, Duration{}, step.trajectory->duration())};
 }
 
 void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)> done) {

@@ -34,8 +34,8 @@ class Drawings {
     std::uint64_t scene_version;
     Diagram diagram;
   };
-  [[nodiscard]] Result<const Job*> known(const std::string& key, const std::string& pointer) const;
-  [[nodiscard]] DiagramView::Side side_of(const Job& job) const;
+  [[nodiscard]] Result<const Step*> known(const std::string& key, const std::string& pointer) const;
+  [[nodiscard]] DiagramView::Side side_of(const Step& step) const;
 
   const Scheduler& scheduler_;
   const JobRegister& jobs_;

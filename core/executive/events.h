@@ -12,7 +12,9 @@
 #include "core/base/time.h"
 #include "core/coordination/guard_refusal.h"
 #include "core/coordination/verdict.h"
-#include "core/jobs/job.h"
+#include "core/jobs/job_terms.h"
+#include "core/jobs/job_words.h"
+#include "core/jobs/ways.h"
 #include "core/model/cell.h"
 #include "core/monitor/finding.h"
 
@@ -32,7 +34,7 @@ struct WaitView {
   std::optional<double> progress = {};  // check: 0 to 1
 };
 
-// See Choice in core/jobs/job.h.
+// See Choice in core/jobs/step.h.
 struct ChoiceView {
   std::vector<std::string> candidates;
   std::string selected;  // one of `candidates`
@@ -72,7 +74,7 @@ struct DetourView {
   // Nullopt if no detour was taken, or if the shortest path was not possible.
   std::optional<double> time_saved_s;
 };
-// See Starvation in core/jobs/job.h.
+// See Starvation in core/jobs/step.h.
 struct StarvationView {
   TimePoint waits_since;
   double bound_s = 0.0;  // scheduling.aging_s

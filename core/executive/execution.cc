@@ -20,15 +20,15 @@ Execution::Execution(const CellPtr& cell, Made made, StartLog* log, ArmFaults::A
       gate_(cell, motions_, std::move(made.scene), std::move(calls)),
       starts_(log) {}
 
-void Execution::carry_out(const Dispatch& dispatch, const Job& job,
+void Execution::carry_out(const Dispatch& dispatch, const Step& step,
                           std::function<bool(StepId)> written) {
-  if (job.system_job) return gate_.dispatch(dispatch, job.trajectory);
-  const auto open = [this, step = dispatch.step, written = std::move(written)] {
-    const bool moves = written(step);
-    const auto withheld = starts_.open(step.job);
-    if (withheld && moves) gate_.grant({step, *withheld});
+  if (step.job->system_job) return gate_.dispatch(dispatch, step.trajectory);
+  const auto open = [this, id = dispatch.step, written = std::move(written)] {
+    const bool moves = written(id);
+    const auto withheld = starts_.open(id.job);
+    if (withheld && moves) gate_.grant({id, *withheld});
   };
-  gate_.dispatch(starts_.pass(dispatch, open), job.trajectory);
+  gate_.dispatch(starts_.pass(dispatch, open), step.trajectory);
 }
 
 void Execution::carry_out(const Grant& grant) {
@@ -39,8 +39,8 @@ bool Execution::keeps_back(const MotionReport& report) const {
   return report.kind == MotionReport::Kind::progressed && starts_.withholds(report.step.job);
 }
 
-void Execution::forget(const Job& ended) {
-  starts_.forget(ended.id);
+void Execution::forget(const Step& ended) {
+  starts_.forget(ended.id.job);
   gate_.forget(ended.trajectory);
 }
 

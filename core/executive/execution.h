@@ -10,7 +10,7 @@
 #include "core/executive/executive.h"
 #include "core/executive/motions.h"
 #include "core/executive/start_gate.h"
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 
 namespace armloom {
 
@@ -28,7 +28,7 @@ class Execution {
 
   // `written` is called on the strand when the job's start is on disk; it returns true if the job
   // is still in motion.
-  void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(StepId)> written);
+  void carry_out(const Dispatch& dispatch, const Step& step, std::function<bool(StepId)> written);
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.step); }
   void carry_out(const Release& release) { gate_.release(release.step); }
@@ -37,7 +37,7 @@ class Execution {
   }
   void brake_all() { motions_.brake_all(); }
   void set_speed(std::vector<double> shares) { motions_.set_speed(std::move(shares)); }
-  void forget(const Job& ended);
+  void forget(const Step& ended);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
   // A report for which keeps_back() is true must not be passed on, because the job's start is not

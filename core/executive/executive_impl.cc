@@ -85,7 +85,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
     const auto written = [this](StepId id) {
       note({ExecutiveInput::StartWritten{id}});
       step(StartRecorded{id});
-      const Job* started = scheduler_.find(id.job);
+      const Step* started = scheduler_.find(id.job);
       return started != nullptr && started->in<Moving>() != nullptr;
     };
     execution_.carry_out(*dispatch, *scheduler_.find(dispatch->step.job), written);

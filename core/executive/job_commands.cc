@@ -29,8 +29,8 @@ void Executive::Impl::roll_back(const std::string& key) {
 // Not within a step, whose effects may speak of it.
 void Executive::Impl::forget_rolled_back() {
   std::erase_if(rolled_back_, [this](JobId id) {
-    const Job* job = scheduler_.find(id);
-    if (job != nullptr && !job->has_ended()) return false;
+    const Step* step = scheduler_.find(id);
+    if (step != nullptr && !step->has_ended()) return false;
     publisher_.forget(id, jobs_.key(id));
     jobs_.forget(id);
     scheduler_.forget(id);

@@ -246,11 +246,11 @@ void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
     } else if (const auto known = jobs_.find(key); !known) {
       problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
                           "no job before this one has the id \"" + key + "\"", key});
-    } else if (const Job& job = *scheduler_.find(*known);
-               job.has_ended() && job.state() != JobState::succeeded) {
+    } else if (const Step& step = *scheduler_.find(*known);
+               step.has_ended() && step.state() != JobState::succeeded) {
       problems.push_back(
           {ProblemKind::invalid, "predecessor-failed", pointer,
-           "job \"" + key + "\" has ended without success: " + to_string(job.state()), key});
+           "job \"" + key + "\" has ended without success: " + to_string(step.state()), key});
     }
   }
 }

@@ -250,8 +250,8 @@ ArmStatus Publisher::status_of(ArmId arm) const {
   status.deviation_max_rad = std::max(deviation_max_rad, status.deviation_rad);
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
-    const Job& job = *shown_.scheduler.find(*status.job);
-    status.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
+    const Step& step = *shown_.scheduler.find(*status.job);
+    status.progress = to_seconds(step.progress) / to_seconds(step.trajectory->duration());
   }
   return status;
 }

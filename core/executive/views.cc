@@ -101,21 +101,22 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
 
 namespace {
 
-const char* why_first(const Job& job, std::size_t among) {
+const char* why_first(const Step& step, std::size_t among) {
   if (among == 1) return "no other candidate is possible";
-  return job.goal ? "no other candidate arrives sooner"
-                  : "no other candidate makes the plan shorter";
+  return step.goal ? "no other candidate arrives sooner"
+                   : "no other candidate makes the plan shorter";
 }
 
-ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
+ChoiceView view_of(const Step& step, const Choice& choice, const Cell& cell,
+                   const JobNames& names) {
   ChoiceView view;
   for (JobId other : choice.jobs) view.candidates.push_back(names.key(other));
   for (ArmId arm : choice.arms) view.candidates.push_back(cell.arm(arm).name);
   const bool by_arm = !choice.arms.empty();
-  view.selected = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
+  view.selected = by_arm ? cell.arm(step.trajectory->arms().front()).name : names.key(step.id.job);
   const std::string& first = view.candidates.front();
   if (view.selected == first) {
-    view.detail = why_first(job, view.candidates.size());
+    view.detail = why_first(step, view.candidates.size());
   } else if (!choice.saves) {
     view.detail = first + " was not possible at the time";
   } else {
@@ -123,7 +124,7 @@ ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const
     char text[64];
     std::snprintf(
         text, sizeof text,
-        job.goal ? "it arrives %.2f s sooner than " : "the plan costs %.2f s less than with ",
+        step.goal ? "it arrives %.2f s sooner than " : "the plan costs %.2f s less than with ",
         *view.time_saved_s);
     view.detail = text + first;
   }
@@ -144,55 +145,56 @@ DetourView view_of(const Detour& detour) {
 }
 
 // A job that continues after a pause is scheduled again. Clients see the first start.
-std::optional<TimePoint> first_scheduled(const JobTimes& times) {
+std::optional<TimePoint> first_scheduled(const StepTimes& times) {
   if (!times.scheduled_at || !times.started_at) return times.scheduled_at;
   return std::min(*times.scheduled_at, *times.started_at);
 }
 
-JobTimesView times_of(const Job& job) {
-  return {.submitted_at = job.times.submitted_at,
-          .backlogged_at = job.times.backlogged_at,
-          .scheduled_at = first_scheduled(job.times),
-          .started_at = job.times.started_at,
-          .ended_at = job.ended_at()};
+JobTimesView times_of(const Step& step) {
+  return {.submitted_at = step.job->submitted_at,
+          .backlogged_at = step.times.backlogged_at,
+          .scheduled_at = first_scheduled(step.times),
+          .started_at = step.times.started_at,
+          .ended_at = step.ended_at()};
 }
 
-JobMotionView motion_of(const Job& job) {
-  const Duration duration = job.trajectory->duration();
-  const bool is_retimed = !job.goal && !job.system_job && job.trajectory->timed_here();
-  const auto* braking = job.in<Braking>();
+JobMotionView motion_of(const Step& step) {
+  const Duration duration = step.trajectory->duration();
+  const bool is_retimed = !step.goal && !step.job->system_job && step.trajectory->timed_here();
+  const auto* braking = step.in<Braking>();
   return {.duration = duration,
-          .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
+          .planned = step.goal ? std::optional(!step.is_unplanned()) : std::nullopt,
           .retimed = is_retimed ? std::optional(true) : std::nullopt,
-          .velocity_scaling =
-              job.goal ? std::optional(job.goal->ways[job.goal->taken].goal.speed) : std::nullopt,
-          .progress = to_seconds(job.progress) / to_seconds(duration),
+          .velocity_scaling = step.goal
+                                  ? std::optional(step.goal->ways[step.goal->taken].goal.speed)
+                                  : std::nullopt,
+          .progress = to_seconds(step.progress) / to_seconds(duration),
           .stopping = braking != nullptr,
           .ends_at_rest = braking != nullptr && braking->after.then != AfterStop::Then::hold};
 }
 
-JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {
+JobWaysView ways_of(const Step& step, const Cell& cell, const JobNames& names) {
   JobWaysView ways;
-  for (const TrajectoryPtr& other : job.alternatives) {
+  for (const TrajectoryPtr& other : step.alternatives) {
     ways.alternatives.push_back(cell.arm(other->arms().front()).name);
   }
-  if (job.goal && job.goal->ways.size() > 1 && ways.alternatives.empty()) {
-    for (const GoalWay& way : job.goal->ways) {
+  if (step.goal && step.goal->ways.size() > 1 && ways.alternatives.empty()) {
+    for (const GoalWay& way : step.goal->ways) {
       ways.alternatives.push_back(cell.arm(way.goal.arm).name);
     }
   }
-  if (job.choice) ways.choice = view_of(job, *job.choice, cell, names);
-  if (job.goal && job.goal->detour) ways.detour = view_of(*job.goal->detour);
-  if (const auto& other = job.another_way) {
-    ways.another_way = AnotherWayView{other->done, other->is_open && !job.has_ended(), other->cause,
-                                      other->refusal};
+  if (step.choice) ways.choice = view_of(step, *step.choice, cell, names);
+  if (step.goal && step.goal->detour) ways.detour = view_of(*step.goal->detour);
+  if (const auto& other = step.another_way) {
+    ways.another_way = AnotherWayView{other->done, other->is_open && !step.has_ended(),
+                                      other->cause, other->refusal};
   }
   return ways;
 }
 
-std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
+std::vector<std::string> ring_of(const Step& step, const JobNames& names) {
   std::vector<std::string> cycle;
-  for (JobId on_it : job.ring) {
+  for (JobId on_it : step.job->ring) {
     const std::string key = names.key(on_it);
     cycle.push_back(key.empty() ? "this job" : key);  // that is only asked about
   }
@@ -200,12 +202,12 @@ std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
 }
 
 // Of one that has ended. `waits`: as they are told.
-JobResultView result_of(const Job& job, const std::vector<WaitView>& waits, const Cell& cell,
+JobResultView result_of(const Step& step, const std::vector<WaitView>& waits, const Cell& cell,
                         const JobNames& names) {
-  JobResultView result{*job.reason(), job.detail()};
+  JobResultView result{*step.reason(), step.detail()};
   // A move-to-start ends with its job, and is in no cycle itself.
-  if (result.reason == Reason::deadlock && !job.ring.empty()) {
-    result.detail = deadlock_text(ring_of(job, names), cell);
+  if (result.reason == Reason::deadlock && !step.job->ring.empty()) {
+    result.detail = deadlock_text(ring_of(step, names), cell);
   }
   if (result.reason != Reason::backlog_timeout) return result;
   for (const WaitView& wait : waits) {
@@ -217,35 +219,36 @@ JobResultView result_of(const Job& job, const std::vector<WaitView>& waits, cons
 
 }  // namespace
 
-JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
-  JobView view{.id = job.id,
-               .key = names.key(job.id),
-               .name = names.name(job.id),
-               .state = job.pausing() ? JobState::paused : job.state(),
-               .terms = job.terms,
-               .system_job = job.system_job,
-               .times = times_of(job),
-               .motion = motion_of(job),
-               .ways = ways_of(job, cell, names)};
-  view.arms = each_name(cell, job.trajectory->arms());
-  const bool in_vain = job.reason() == Reason::backlog_timeout;
-  for (const Wait& wait : job.waits_on) {
+JobView view_of(const Step& step, const Cell& cell, const JobNames& names) {
+  JobView view{.id = step.id.job,
+               .key = names.key(step.id.job),
+               .name = names.name(step.id.job),
+               .state = step.pausing() ? JobState::paused : step.state(),
+               .terms = step.job->terms,
+               .system_job = step.job->system_job,
+               .times = times_of(step),
+               .motion = motion_of(step),
+               .ways = ways_of(step, cell, names)};
+  view.arms = each_name(cell, step.trajectory->arms());
+  const bool in_vain = step.reason() == Reason::backlog_timeout;
+  for (const Wait& wait : step.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
   }
-  if (job.starvation) {
-    view.starvation = StarvationView{job.starvation->waits_since, to_seconds(cell.scheduling.aging),
-                                     job.starvation->overtaken_by};
+  if (step.starvation) {
+    view.starvation =
+        StarvationView{step.starvation->waits_since, to_seconds(cell.scheduling.aging),
+                       step.starvation->overtaken_by};
   }
-  view.cycle = ring_of(job, names);
-  if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);
+  view.cycle = ring_of(step, names);
+  if (step.reason()) view.result = result_of(step, view.waits_on, cell, names);
   return view;
 }
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
   CheckView view{.kind = outcome.kind, .scene_version = 0};
   if (outcome.approach) view.move_to_start_s = to_seconds(*outcome.approach);
-  const Job& job = outcome.job;
-  if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
+  const Step& step = *outcome.step;
+  if (step.goal && step.choice) view.choice = view_of(step, *step.choice, cell, names);
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);
   if (outcome.clearance_bound) {
     view.clearance_bound_m = outcome.clearance_bound->apart_m;
@@ -254,7 +257,7 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
   view.evaluations = outcome.evaluations;
   for (const Wait& wait : outcome.waits) view.waits_on.push_back(view_of(wait, cell, names));
   if (view.kind != Verdict::Kind::free) view.conflicts = view.waits_on;
-  if (job.has_ended()) view.result = result_of(job, view.waits_on, cell, names);
+  if (step.has_ended()) view.result = result_of(step, view.waits_on, cell, names);
   return view;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/executive/events.h"
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 #include "core/model/cell.h"
 #include "core/scheduler/trial.h"
 
@@ -27,7 +27,7 @@ class JobNames {
                                bool in_vain = false);
 
 // Returns the scheduler's job with names instead of ids.
-[[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);
+[[nodiscard]] JobView view_of(const Step& step, const Cell& cell, const JobNames& names);
 
 // Returns the view of a check's outcome, without the scene version.
 [[nodiscard]] CheckView view_of(const Trial::Outcome& outcome, const Cell& cell,

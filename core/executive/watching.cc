@@ -26,13 +26,14 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 // A motion that ended away from its goal has failed.
 void Executive::Impl::take(const MotionReport& report) {
-  const Job* job = scheduler_.find(report.step.job);
-  const bool is_watched = clock_.monitored && job != nullptr;
+  const Step* moved = scheduler_.find(report.step.job);
+  const bool is_watched = clock_.monitored && moved != nullptr;
   if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();
   std::vector<MonitorFinding> found;
-  for (const ArmId arm : job->trajectory->arms()) {
-    auto early = watch_.premises().finished(arm, *job->trajectory, motions.measured(), clock_.now);
+  for (const ArmId arm : moved->trajectory->arms()) {
+    auto early =
+        watch_.premises().finished(arm, *moved->trajectory, motions.measured(), clock_.now);
     if (early) found.push_back(std::move(*early));
   }
   if (found.empty()) return step(report);

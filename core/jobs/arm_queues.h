@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 
 namespace armloom {
 
@@ -20,25 +20,25 @@ class ArmQueues {
   [[nodiscard]] auto begin() const { return queues_.begin(); }  // by ArmId
   [[nodiscard]] auto end() const { return queues_.end(); }
 
-  [[nodiscard]] bool is_first(const Job& job) const;  // in the queues of all its arms
+  [[nodiscard]] bool is_first(const Step& step) const;  // in the queues of all its arms
   // Return the neighbor in that arm's queue, if any.
-  [[nodiscard]] std::optional<StepId> before(const Job& job, ArmId arm) const;
-  [[nodiscard]] std::optional<StepId> behind(const Job& job, ArmId arm) const;
+  [[nodiscard]] std::optional<StepId> before(const Step& step, ArmId arm) const;
+  [[nodiscard]] std::optional<StepId> behind(const Step& step, ArmId arm) const;
 
   // Inserts the job at the end of its arms' queues, or before the step `before` in queues that
   // contain it.
-  void insert(const Job& job, std::optional<StepId> before);
-  void insert_at(const Job& job, std::size_t place);
-  void erase(const Job& job);
+  void insert(const Step& step, std::optional<StepId> before);
+  void insert_at(const Step& step, std::size_t place);
+  void erase(const Step& step);
   // Puts these steps, which occupy consecutive places on the same arms, into the given order.
-  void put_in_order(const Job& any_of_them, const std::vector<StepId>& steps);
+  void put_in_order(const Step& any_of_them, const std::vector<StepId>& steps);
 
   // Add or remove the job's duration as work. A job with several candidate arms is shared equally
   // between them. To change a job, remove its work first and add it again.
-  void add_work(const Job& job);
-  void remove_work(const Job& job);
+  void add_work(const Step& step);
+  void remove_work(const Step& step);
   // Returns the work of each arm, by ArmId, without these jobs.
-  [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Job*>& in_front) const;
+  [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Step*>& in_front) const;
 
  private:
   std::vector<Queue> queues_;

@@ -83,8 +83,8 @@ void ArmRests::stop(ArmId arm, std::string cause, bool until_connected) {
   if (!stop || stop->until_connected) stop = {std::move(cause), until_connected};
 }
 
-std::optional<Wait> ArmRests::stop_of(const Job& job) const {
-  for (ArmId arm : job.trajectory->arms()) {
+std::optional<Wait> ArmRests::stop_of(const Step& step) const {
+  for (ArmId arm : step.trajectory->arms()) {
     const auto& stop = stopped_[arm.index()];
     if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
   }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 #include "core/model/cell.h"
 #include "core/sequence/safe_sequence.h"
 
@@ -55,7 +55,7 @@ class ArmRests {
   [[nodiscard]] const std::optional<StopOfArm>& stop_of(ArmId arm) const {
     return stopped_[arm.index()];
   }
-  [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
+  [[nodiscard]] std::optional<Wait> stop_of(const Step& step) const;
 
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
   // Returns the first joint whose rest differs from the trajectory's start by more than

@@ -11,26 +11,26 @@ std::string name(StepId step) { return "job " + std::to_string(step.job.value())
 
 std::string at(Duration progress) { return std::to_string(to_seconds(progress)) + " s"; }
 
-Broken of_job(const State& state, const Job& job) {
+Broken of_job(const State& state, const Step& step) {
   const bool occupies =
-      job.in<Moving>() != nullptr || job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
-  if (job.has_ended()) return name(job.step()) + " has ended but is in a queue";
-  if (occupies && !state.jobs.queues().is_first(job)) {
-    return name(job.step()) + " occupies an arm, but another job precedes it in the queue";
+      step.in<Moving>() != nullptr || step.in<Braking>() != nullptr || step.in<Held>() != nullptr;
+  if (step.has_ended()) return name(step.id) + " has ended but is in a queue";
+  if (occupies && !state.jobs.queues().is_first(step)) {
+    return name(step.id) + " occupies an arm, but another job precedes it in the queue";
   }
-  if (!job.has_authority() || state.graph.holds(job.step())) return std::nullopt;
-  return name(job.step()) + " moves or is about to move, but is not admitted";
+  if (!step.has_authority() || state.graph.holds(step.id)) return std::nullopt;
+  return name(step.id) + " moves or is about to move, but is not admitted";
 }
 
 Broken of_motion(const State& state, const CoordinatedMotion& motion) {
   if (!state.jobs.is_active(motion.step.job))
     return name(motion.step) + " has ended but is admitted";
-  if (state.jobs.at(motion.step).job.in<Queued>() != nullptr) {
+  if (state.jobs.at(motion.step).in<Queued>() != nullptr) {
     return name(motion.step) + " waits in the queue but is admitted";
   }
   const bool in_order = Duration{} <= motion.progress && motion.progress <= motion.authority &&
                         motion.authority <= motion.duration;
-  if (in_order) return of_job(state, state.jobs.at(motion.step).job);
+  if (in_order) return of_job(state, state.jobs.at(motion.step));
   return name(motion.step) + ": progress " + at(motion.progress) + ", authority " +
          at(motion.authority) + ", duration " + at(motion.duration) + " are out of order";
 }
@@ -65,7 +65,7 @@ std::optional<std::string> broken_invariant(const State& state) {
   }
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
-    if (auto broken = of_job(state, state.jobs.at(queue.front()).job)) return broken;
+    if (auto broken = of_job(state, state.jobs.at(queue.front()))) return broken;
   }
   return std::nullopt;
 }

@@ -9,8 +9,8 @@
 namespace armloom {
 namespace {
 
-// The table in job.h. What only gets other data stays in its phase.
-bool leads_to(const JobPhase& from, const JobPhase& to) {
+// The table in step.h. What only gets other data stays in its phase.
+bool leads_to(const StepPhase& from, const StepPhase& to) {
   struct Allowed {
     bool queued, admitted, moving, braking, held, ended;
   };
@@ -35,34 +35,39 @@ void JobIds::take(JobId id) {
   last = id.value();
 }
 
-Record& JobBook::add(Record record) {
-  const Job& job = record.job;
-  ids_.take(job.id);
-  const auto& before = record.errand.before;
-  queues_.insert(job, before ? std::optional(only_step(*before)) : std::nullopt);
-  queues_.add_work(job);
-  active_.insert(job.id);
-  if (!job.alternatives.empty()) undecided_.insert(job.id);
-  if (job.goal) ++goals_;
-  news_.unexplained.insert(job.id);
+Step& JobBook::add(Step step) {
+  const JobId id = step.id.job;
+  ids_.take(id);
+  const auto& before = step.job->errand.before;
+  queues_.insert(step, before ? std::optional(only_step(*before)) : std::nullopt);
+  queues_.add_work(step);
+  active_.insert(id);
+  if (!step.alternatives.empty()) undecided_.insert(id);
+  if (step.goal) ++goals_;
+  news_.unexplained.insert(id);
   if (before) news_.unexplained.insert(*before);
-  ++priorities_[job.terms.priority];
-  for (JobId first : job.after) followers_[first].push_back(job.id);
-  Record& added = records_.emplace(job.id, std::move(record)).first->second;
+  ++priorities_[step.job->terms.priority];
+  for (JobId first : step.job->after) followers_[first].push_back(id);
+  Step& added = steps_.emplace(step.id, std::move(step)).first->second;
   changed(added);
   return added;
 }
 
-void JobBook::forget(JobId job) { records_.erase(job); }
+void JobBook::forget(JobId job) { steps_.erase(only_step(job)); }
 
-Record* JobBook::find(JobId job) {
-  const auto it = records_.find(job);
-  return it == records_.end() ? nullptr : &it->second;
+Step* JobBook::find(StepId step) {
+  const auto it = steps_.find(step);
+  return it == steps_.end() ? nullptr : &it->second;
 }
 
-const Record* JobBook::find(JobId job) const {
-  const auto it = records_.find(job);
-  return it == records_.end() ? nullptr : &it->second;
+const Step* JobBook::find(StepId step) const {
+  const auto it = steps_.find(step);
+  return it == steps_.end() ? nullptr : &it->second;
+}
+
+Job& JobBook::change(Step& step) {
+  if (step.job.use_count() > 1) step.job = std::make_shared<Job>(*step.job);
+  return const_cast<Job&>(*step.job);
 }
 
 void JobBook::put_in_order(const std::vector<JobId>& jobs) {
@@ -70,139 +75,136 @@ void JobBook::put_in_order(const std::vector<JobId>& jobs) {
   std::vector<JobId> turns;
   for (JobId id : jobs) {
     steps.push_back(only_step(id));
-    turns.push_back(at(id).turn);
+    turns.push_back(at(id).job->turn);
   }
-  queues_.put_in_order(at(jobs.front()).job, steps);
+  queues_.put_in_order(at(jobs.front()), steps);
   std::ranges::sort(turns);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    at(jobs[i]).turn = turns[i];
-    explain_with_next(at(jobs[i]).job);
+    change(at(jobs[i])).turn = turns[i];
+    explain_with_next(at(jobs[i]));
   }
 }
 
-void JobBook::take(Record& record, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
-  Job& job = record.job;
-  explain_with_next(job);
-  queues_.erase(job);
-  job.trajectory = std::move(trajectory);
-  leg.motion = record.leg.motion + 1;
-  record.leg = std::move(leg);
-  queues_.insert_at(job, place);
-  explain_with_next(job);
+void JobBook::take(Step& step, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
+  explain_with_next(step);
+  queues_.erase(step);
+  step.trajectory = std::move(trajectory);
+  leg.motion = step.leg.motion + 1;
+  step.leg = std::move(leg);
+  queues_.insert_at(step, place);
+  explain_with_next(step);
 }
 
-void JobBook::set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg) {
-  Job& job = record.job;
-  queues_.remove_work(job);
-  job.trajectory = std::move(trajectory);
-  leg.motion = record.leg.motion + 1;
-  record.leg = std::move(leg);
-  record.asking.effort = 1;
-  record.asking.raised = 0;
-  if (auto* queued = std::get_if<Queued>(&job.phase)) queued->judgement = {};
-  queues_.add_work(job);
-  explain_with_next(job);
-  changed(record);
+void JobBook::set_motion(Step& step, TrajectoryPtr trajectory, WaitingLeg leg) {
+  queues_.remove_work(step);
+  step.trajectory = std::move(trajectory);
+  leg.motion = step.leg.motion + 1;
+  step.leg = std::move(leg);
+  step.asking.effort = 1;
+  step.asking.raised = 0;
+  if (auto* queued = std::get_if<Queued>(&step.phase)) queued->judgement = {};
+  queues_.add_work(step);
+  explain_with_next(step);
+  changed(step);
 }
 
-void JobBook::set_priority(Record& record, int priority) {
-  int& now = record.job.terms.priority;
+void JobBook::set_priority(Step& step, int priority) {
+  const int now = step.job->terms.priority;
   if (--priorities_.at(now) == 0) priorities_.erase(now);
-  now = priority;
-  ++priorities_[now];
-  changed(record);
+  change(step).terms.priority = priority;
+  ++priorities_[priority];
+  changed(step);
 }
 
-void JobBook::set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory,
+void JobBook::set_alternative(Step& step, std::size_t which, TrajectoryPtr trajectory,
                               WaitingLeg leg) {
-  Job& job = record.job;
-  const bool is_taken = job.trajectory == job.alternatives[which];
-  queues_.remove_work(job);
-  job.alternatives[which] = trajectory;
-  queues_.add_work(job);
-  if (is_taken) set_motion(record, std::move(trajectory), std::move(leg));
+  const bool is_taken = step.trajectory == step.alternatives[which];
+  queues_.remove_work(step);
+  step.alternatives[which] = trajectory;
+  queues_.add_work(step);
+  if (is_taken) set_motion(step, std::move(trajectory), std::move(leg));
 }
 
-void JobBook::decide_arm(Record& record) {
-  queues_.remove_work(record.job);
-  record.job.alternatives.clear();
-  queues_.add_work(record.job);
-  undecided_.erase(record.job.id);
-  changed(record);
+void JobBook::decide_arm(Step& step) {
+  queues_.remove_work(step);
+  step.alternatives.clear();
+  queues_.add_work(step);
+  undecided_.erase(step.id.job);
+  changed(step);
 }
 
 // What comes next on its arms may have waited for it, or does now.
-void JobBook::explain_with_next(const Job& job) {
-  news_.unexplained.insert(job.id);
-  for (ArmId arm : job.trajectory->arms()) {
-    if (const auto next = queues_.behind(job, arm)) news_.unexplained.insert(next->job);
+void JobBook::explain_with_next(const Step& step) {
+  news_.unexplained.insert(step.id.job);
+  for (ArmId arm : step.trajectory->arms()) {
+    if (const auto next = queues_.behind(step, arm)) news_.unexplained.insert(next->job);
   }
 }
 
-void JobBook::enter(Record& record, JobPhase phase) {
-  Job& job = record.job;
-  if (!leads_to(job.phase, phase)) {
-    throw std::logic_error("job " + std::to_string(job.id.value()) + ": no transition from phase " +
-                           std::to_string(job.phase.index()) + " to " +
+void JobBook::enter(Step& step, StepPhase phase) {
+  const JobId id = step.id.job;
+  if (!leads_to(step.phase, phase)) {
+    throw std::logic_error("job " + std::to_string(id.value()) + ": no transition from phase " +
+                           std::to_string(step.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }
-  if (!job.alternatives.empty()) queues_.remove_work(job);
-  job.phase = std::move(phase);
-  if (!job.alternatives.empty()) queues_.add_work(job);
-  const bool is_decided = job.alternatives.empty() || job.in<Queued>() == nullptr;
-  is_decided ? (void)undecided_.erase(job.id) : (void)undecided_.insert(job.id);
-  const auto place = std::ranges::lower_bound(past_queue_, job.id);
-  const bool was_past = place != past_queue_.end() && *place == job.id;
-  const bool is_past = job.state() != JobState::queued && !job.has_ended();
+  if (!step.alternatives.empty()) queues_.remove_work(step);
+  step.phase = std::move(phase);
+  if (!step.alternatives.empty()) queues_.add_work(step);
+  const bool is_decided = step.alternatives.empty() || step.in<Queued>() == nullptr;
+  is_decided ? (void)undecided_.erase(id) : (void)undecided_.insert(id);
+  const auto place = std::ranges::lower_bound(past_queue_, id);
+  const bool was_past = place != past_queue_.end() && *place == id;
+  const bool is_past = step.state() != JobState::queued && !step.has_ended();
   if (was_past && !is_past) past_queue_.erase(place);
-  if (is_past && !was_past) past_queue_.insert(place, job.id);
-  explain_with_next(job);
+  if (is_past && !was_past) past_queue_.insert(place, id);
+  explain_with_next(step);
 }
 
-std::vector<JobId> JobBook::end(Record& record, Ended how) {
-  enter(record, std::move(how));
-  Job& job = record.job;
-  const Ended& ended = *job.in<Ended>();
-  if (ended.reason != Reason::deadlock) job.ring.clear();
-  if (ended.state != JobState::expired) job.waits_on.clear();  // else: what it waited for in vain
-  if (ended.state == JobState::succeeded) job.progress = job.trajectory->duration();
-  queues_.erase(job);
-  queues_.remove_work(job);
-  active_.erase(job.id);
-  if (job.goal) --goals_;
-  news_.unexplained.erase(job.id);
-  if (--priorities_.at(job.terms.priority) == 0) priorities_.erase(job.terms.priority);
-  changed(record);
-  const auto node = followers_.extract(job.id);
+std::vector<JobId> JobBook::end(Step& step, Ended how) {
+  enter(step, std::move(how));
+  const JobId id = step.id.job;
+  const Ended& ended = *step.in<Ended>();
+  if (ended.reason != Reason::deadlock && !step.job->ring.empty()) change(step).ring.clear();
+  if (ended.state != JobState::expired) step.waits_on.clear();  // else: what it waited for in vain
+  if (ended.state == JobState::succeeded) step.progress = step.trajectory->duration();
+  queues_.erase(step);
+  queues_.remove_work(step);
+  active_.erase(id);
+  if (step.goal) --goals_;
+  news_.unexplained.erase(id);
+  const int priority = step.job->terms.priority;
+  if (--priorities_.at(priority) == 0) priorities_.erase(priority);
+  changed(step);
+  const auto node = followers_.extract(id);
   return node.empty() ? std::vector<JobId>{} : node.mapped();
 }
 
-void JobBook::set_waits(Record& record, std::span<const Wait> waits) {
-  auto& old = record.job.waits_on;
+void JobBook::set_waits(Step& step, std::span<const Wait> waits) {
+  auto& old = step.waits_on;
   if (std::ranges::equal(old, waits)) return;
   const bool same =
       std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
   old.assign(waits.begin(), waits.end());
-  if (!same) changed(record);
+  if (!same) changed(step);
 }
 
-std::vector<const Job*> occupying(const JobBook& book) {
-  std::vector<const Job*> jobs;
+std::vector<const Step*> occupying(const JobBook& book) {
+  std::vector<const Step*> steps;
   for (JobId id : book.past_queue()) {
-    const Job& job = book.at(id).job;
-    if (job.in<Held>() != nullptr || job.has_authority()) jobs.push_back(&job);
+    const Step& step = book.at(id);
+    if (step.in<Held>() != nullptr || step.has_authority()) steps.push_back(&step);
   }
-  return jobs;
+  return steps;
 }
 
-bool is_at_head(const JobBook& book, const Record& record) {
-  return record.job.after.empty() && !lets_another_pass(book, record) &&
-         book.queues().is_first(record.job);
+bool is_at_head(const JobBook& book, const Step& step) {
+  return step.job->after.empty() && !lets_another_pass(book, step) && book.queues().is_first(step);
 }
 
-bool lets_another_pass(const JobBook& book, const Record& record) {
-  return record.errand.lets_pass && book.is_active(*record.errand.lets_pass) &&
-         book.at(*record.errand.lets_pass).job.is_waiting();
+bool lets_another_pass(const JobBook& book, const Step& step) {
+  const auto& other = step.job->errand.lets_pass;
+  return other && book.is_active(*other) && book.at(*other).is_waiting();
 }
 
 // Sorts by turn, but keeps the order of each arm's queue. An errand (Errand::before) counts with
@@ -212,7 +214,7 @@ std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
   for (const auto& queue : book.queues()) {
     std::optional<JobId> first;
     for (auto step = queue.rbegin(); step != queue.rend(); ++step) {
-      if (!book.at(*step).errand.before) {
+      if (!book.at(*step).job->errand.before) {
         first = step->job;
       } else if (first) {
         behind.emplace(step->job, *first);
@@ -220,7 +222,7 @@ std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
     }
   }
   std::vector<JobId> by_turn(jobs.begin(), jobs.end());
-  const auto turn = [&](JobId id) { return book.at(id).turn; };
+  const auto turn = [&](JobId id) { return book.at(id).job->turn; };
   if (!behind.empty() || !std::ranges::is_sorted(by_turn, {}, turn)) {
     std::ranges::sort(by_turn, {}, [&](JobId id) {
       const auto first = behind.find(id);

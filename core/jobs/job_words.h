@@ -13,7 +13,7 @@ namespace armloom {
 
 // Enums that clients see of a job: its state, its waits, and the reason of its end.
 
-// A job's published state; follows from its phase (job.h).
+// A job's published state; follows from the phase of its step (step.h).
 enum class JobState {
   queued,      // not checked yet, or not its turn
   backlogged,  // checked and in conflict; `waits_on` names the other job, arm or object

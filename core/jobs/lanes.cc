@@ -8,30 +8,30 @@ namespace {
 
 // While a goal waits its way may yet be another one: it is planned for the first time, anew, or
 // around what others hold.
-bool is_way_open(const Job& job) { return job.goal && job.in<Queued>() != nullptr; }
+bool is_way_open(const Step& step) { return step.goal && step.in<Queued>() != nullptr; }
 
-WaitingLeg waiting_leg(const Record& record) {
-  WaitingLeg leg = record.leg;
-  for (JobId before : record.job.after) leg.after.push_back(only_step(before));
-  leg.is_estimate = is_way_open(record.job);
-  leg.is_approached = record.is_brought_to_start();
+WaitingLeg waiting_leg(const Step& step) {
+  WaitingLeg leg = step.leg;
+  for (JobId before : step.job->after) leg.after.push_back(only_step(before));
+  leg.is_estimate = is_way_open(step);
+  leg.is_approached = step.is_brought_to_start();
   return leg;
 }
 
 }  // namespace
 
-void Lanes::add(const Record& record) {
-  if (record.errand.before) is_stale_ = true;
-  if (is_stale_ || !record.job.knows_its_end()) return;
-  sequence_.append(waiting_leg(record));
+void Lanes::add(const Step& step) {
+  if (step.job->errand.before) is_stale_ = true;
+  if (is_stale_ || !step.knows_its_end()) return;
+  sequence_.append(waiting_leg(step));
 }
 
-void Lanes::follow(const Job& job, const JobPhase& before) {
+void Lanes::follow(const Step& step, const StepPhase& before) {
   const bool waited = std::holds_alternative<Queued>(before);
-  const auto* ended = job.in<Ended>();
+  const auto* ended = step.in<Ended>();
   if (waited && ended != nullptr) {
-    if (!sequence_.remove(job.step())) is_stale_ = true;
-  } else if (!waited && (job.in<Queued>() != nullptr ||
+    if (!sequence_.remove(step.id)) is_stale_ = true;
+  } else if (!waited && (step.in<Queued>() != nullptr ||
                          (ended != nullptr && ended->state != JobState::succeeded))) {
     is_stale_ = true;
   }
@@ -42,23 +42,23 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   std::vector<PlacePtr> stands = arms.places();
   std::set<JobId> waiting;
   for (std::uint32_t arm = 0; arm < stands.size(); ++arm) {
-    for (StepId step : book.queues()[ArmId{arm}]) {
-      const Record& record = book.at(step);
-      if (record.job.in<Queued>() != nullptr) {
-        if (record.job.knows_its_end()) waiting.insert(step.job);
+    for (StepId which : book.queues()[ArmId{arm}]) {
+      const Step& step = book.at(which);
+      if (step.in<Queued>() != nullptr) {
+        if (step.knows_its_end()) waiting.insert(which.job);
         continue;
       }
-      for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
-        if (record.leg.arms[i].index() == arm) stands[arm] = record.leg.to[i];
+      for (std::size_t i = 0; i < step.leg.arms.size(); ++i) {
+        if (step.leg.arms[i].index() == arm) stands[arm] = step.leg.to[i];
       }
     }
   }
   std::vector<WaitingLeg> legs;
   for (JobId id : in_turn(book, waiting)) {
-    const Record& record = book.at(id);
-    WaitingLeg& leg = legs.emplace_back(waiting_leg(record));
-    if (record.errand.lets_pass && book.is_active(*record.errand.lets_pass)) {
-      leg.after.push_back(only_step(*record.errand.lets_pass));
+    const Step& step = book.at(id);
+    WaitingLeg& leg = legs.emplace_back(waiting_leg(step));
+    if (step.job->errand.lets_pass && book.is_active(*step.job->errand.lets_pass)) {
+      leg.after.push_back(only_step(*step.job->errand.lets_pass));
     }
   }
   sequence_.renew(std::move(stands), legs);
@@ -66,7 +66,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
 
 SafeSequence::Outlook Lanes::after(const std::vector<StepId>& steps, const JobBook& book,
                                    const ArmRests& arms) {
-  const auto in_queue = [&](StepId step) { return book.at(step).job.in<Queued>() != nullptr; };
+  const auto in_queue = [&](StepId step) { return book.at(step).in<Queued>() != nullptr; };
   if (!std::ranges::all_of(steps, in_queue)) return {};
   renew(book, arms);
   return sequence_.after(steps);
@@ -87,7 +87,7 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
     sequence_.learn(
         passage, answer != PassageAnswer::blocked,
         has_evidence ? std::make_shared<const PassageBlock>(*verdict.passage_blocks[i]) : nullptr);
-    const Record* leg = book.find(passage.leg);
+    const Step* leg = book.find(passage.leg);
     if (answer != PassageAnswer::apart || leg == nullptr) continue;
     if (passage.from != nullptr) {
       sequence_.learn_apart(passage.from->arm, passage.place->arm);
@@ -100,7 +100,7 @@ void Lanes::learn(const std::vector<Passage>& asked, const Verdict& verdict, con
 void Lanes::learn_in_the_way(StepId step, ArmId arm, const PassageBlock& block, const JobBook& book,
                              const ArmRests& arms) {
   const auto& queue = book.queues()[ArmId{arm}];
-  const bool rests = queue.empty() || book.at(queue.front()).job.in<Queued>() != nullptr;
+  const bool rests = queue.empty() || book.at(queue.front()).in<Queued>() != nullptr;
   if (!rests || is_stale_) return;
   sequence_.learn({step, arms.place(arm), book.at(step).leg.motion}, false,
                   std::make_shared<const PassageBlock>(block));

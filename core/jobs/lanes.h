@@ -18,8 +18,8 @@ class Lanes {
 
   // Update the sequence after a new job, after a job that left phase `before`, and after any other
   // change.
-  void add(const Record& record);
-  void follow(const Job& job, const JobPhase& before);
+  void add(const Step& step);
+  void follow(const Step& step, const StepPhase& before);
   void renew_later() { is_stale_ = true; }
   // Records that the steps of the last after() call were admitted.
   void admitted(const std::vector<StepId>& steps) { sequence_.admitted(steps); }

@@ -10,24 +10,24 @@ namespace armloom {
 inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
 // Returns the wait for a speed override of 0; nullopt if the job's arms may move.
-[[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Job& job);
+[[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Step& step);
 // Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, another
 // arm whose position is not known, or a speed override of 0. nullopt if there is none.
-[[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Job& job);
+[[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Step& step);
 // Returns what an admitted job at its limit waits for; nullopt if it moves or is about to.
-[[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Record& record);
+[[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Step& step);
 // Returns true if one of the job's arms rests in the path of an admitted motion that precedes the
 // job in an arm queue.
-[[nodiscard]] bool holds_one_ahead(const State& state, const Record& record);
+[[nodiscard]] bool holds_one_ahead(const State& state, const Step& step);
 // Returns true if the job cannot move before other jobs have moved.
-[[nodiscard]] bool stands(const State& state, const Record& record);
+[[nodiscard]] bool stands(const State& state, const Step& step);
 
 // Returns an earlier job with an undecided arm that may yet bring an arm to this job's start.
 // nullopt if there is none, or if the arms are already there.
-[[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
+[[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Step& step);
 
 // Returns what the job waits for, from its last check or in its present pause; null if not known.
-[[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Job& job);
+[[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Step& step);
 // Returns true if the job waits for an arm at rest that has no job.
 [[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
 

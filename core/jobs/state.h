@@ -58,8 +58,8 @@ struct State {
   // Returns the motion clock at `now`.
   [[nodiscard]] TimePoint clock() const { return speed.clock(now); }
   // Returns true if the job has waited for scheduling.aging by the motion clock.
-  [[nodiscard]] bool has_aged(const Record& record) const {
-    return record.ages_from && clock() - record.ages_from->clock >= cell->scheduling.aging;
+  [[nodiscard]] bool has_aged(const Step& step) const {
+    return step.ages_from && clock() - step.ages_from->clock >= cell->scheduling.aging;
   }
   // Returns the cell time that the whole motion is predicted to take.
   [[nodiscard]] Duration time_for(const Trajectory& motion) const {
@@ -67,10 +67,10 @@ struct State {
   }
 
   // Returns true if the job's last check still applies. Precondition: the job is waiting.
-  [[nodiscard]] bool is_judged(const Job& job) const {
-    const Judgement& found = job.judgement();
+  [[nodiscard]] bool is_judged(const Step& step) const {
+    const Judgement& found = step.judgement();
     if (found.at != version) return false;
-    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, job.step());
+    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, step.id);
   }
 };
 

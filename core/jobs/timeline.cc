@@ -13,8 +13,8 @@ namespace armloom {
 namespace {
 
 // Brakes, and will not go on.
-bool is_given_up(const Job& job) {
-  const auto* braking = job.in<Braking>();
+bool is_given_up(const Step& step) {
+  const auto* braking = step.in<Braking>();
   return braking != nullptr && braking->after.then != AfterStop::Then::hold;
 }
 
@@ -50,7 +50,7 @@ class Timetable {
   }
 
  private:
-  [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].step).job; }
+  [[nodiscard]] const Step& job(std::size_t m) const { return state_.jobs.at(motions_[m].step); }
 
   // Returns what keeps the motion at rest for an unknown time: a stop, or what the last check of a
   // motion that rests on its path has found.

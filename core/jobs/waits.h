@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/coordination/verdict.h"
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 #include "core/precedence/passing_orders.h"
 
 namespace armloom {

@@ -10,11 +10,10 @@ namespace armloom {
 namespace {
 
 // Waits for something else of the round, or for an arm that has no job in it, or for an open arm.
-bool stands_in_vain(const State& state, const Record& record) {
-  const bool tried =
-      record.job.is_waiting() && (state.is_judged(record.job) || !is_at_head(state.jobs, record) ||
-                                  may_go_first(state, record).has_value());
-  return tried || held_where_it_stands(state, record).has_value();
+bool stands_in_vain(const State& state, const Step& step) {
+  const bool tried = step.is_waiting() && (state.is_judged(step) || !is_at_head(state.jobs, step) ||
+                                           may_go_first(state, step).has_value());
+  return tried || held_where_it_stands(state, step).has_value();
 }
 
 class LockstepPolicy final : public Policy {
@@ -31,7 +30,7 @@ class LockstepPolicy final : public Policy {
     std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
     for (const auto& queue : book.queues()) {
       for (const StepId step : queue) {
-        const auto& before = book.at(step).errand.before;
+        const auto& before = book.at(step).job->errand.before;
         if (!before) break;
         if (round.jobs.contains(*before)) round.jobs.insert(step.job);
       }
@@ -39,21 +38,20 @@ class LockstepPolicy final : public Policy {
     const bool stuck = std::ranges::all_of(
         round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
     if (round.jobs.empty()) round.has_begun = false;
-    for (JobId id : round.jobs) round.has_begun |= book.at(id).job.has_started();
+    for (JobId id : round.jobs) round.has_begun |= book.at(id).has_started();
     if (round.has_begun && !stuck) return round;
     for (const auto& queue : book.queues()) {
       if (queue.empty()) continue;
-      const Record& record = book.at(queue.front());
-      const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                        is_at_head(book, record) && !operator_wait(state, record.job) &&
-                        !may_go_first(state, record);
-      if (goes) round.jobs.insert(record.job.id);
+      const Step& step = book.at(queue.front());
+      const bool goes = step.is_waiting() && !step.is_unplanned() && is_at_head(book, step) &&
+                        !operator_wait(state, step) && !may_go_first(state, step);
+      if (goes) round.jobs.insert(step.id.job);
     }
     return round;
   }
-  std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
+  std::optional<JobId> place_taken_by(const State& state, const Step& step) const override {
     const auto& jobs = state.round.jobs;
-    if (jobs.contains(record.job.id) || jobs.empty()) return std::nullopt;
+    if (jobs.contains(step.id.job) || jobs.empty()) return std::nullopt;
     return *jobs.begin();
   }
   bool opens_places() const override { return true; }

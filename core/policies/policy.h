@@ -32,7 +32,7 @@ class Policy {
   // For policies that limit how many jobs run at once: returns a job that must end before the
   // waiting `job` is checked; nullopt if there is none.
   [[nodiscard]] virtual std::optional<JobId> place_taken_by(const State& /*state*/,
-                                                            const Record& /*job*/) const {
+                                                            const Step& /*job*/) const {
     return std::nullopt;
   }
   // True if another job gets a place although none is free, when all jobs that have a place wait

@@ -10,10 +10,10 @@ class SequentialPolicy final : public Policy {
   explicit SequentialPolicy(const Cell& cell) : tracking_errors_(cell) {}
 
   std::string_view name() const override { return "sequential"; }
-  std::optional<JobId> place_taken_by(const State& state, const Record& record) const override {
-    std::vector<const Job*> others = occupying(state.jobs);
-    std::erase(others, &record.job);  // held on its path
-    return others.empty() ? std::nullopt : std::optional(others.front()->id);
+  std::optional<JobId> place_taken_by(const State& state, const Step& step) const override {
+    std::vector<const Step*> others = occupying(state.jobs);
+    std::erase(others, &step);  // held on its path
+    return others.empty() ? std::nullopt : std::optional(others.front()->id.job);
   }
   CheckMethod method() const override { return Coordinated{tracking_errors_}; }
   PassingOrders decide(const OrderQuestion& question) const override {

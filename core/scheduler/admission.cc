@@ -33,11 +33,11 @@ constexpr std::size_t kPutOffMax = 32;
 std::optional<StepId> next_recheck(const State& state) {
   std::optional<StepId> next;
   for (JobId id : state.jobs.past_queue()) {
-    const Record& record = state.jobs.at(id);
-    if (!record.job.has_authority() || !record.asking.is_in_question) continue;
+    const Step& step = state.jobs.at(id);
+    if (!step.has_authority() || !step.asking.is_in_question) continue;
     const bool is_older =
-        !next || record.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
-    if (is_older) next = record.job.step();
+        !next || step.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
+    if (is_older) next = step.id;
   }
   return next;
 }
@@ -48,21 +48,21 @@ SafeSequence::Outlook outlook_with(State& state, const std::vector<StepId>& step
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
-void go_on(State& state, Record& record, const Verdict& verdict) {
+void go_on(State& state, Step& step, const Verdict& verdict) {
   std::vector<Wait> waits;
   for (const PairRegions& pair : verdict.regions) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm == nullptr) continue;
     const ConflictRegion& region = pair.regions.front();
-    waits.push_back(wait_for(Blocker{record.job.step(), std::nullopt, *arm, region.proximity,
-                                     region.time_a, region.time_b}));
+    waits.push_back(wait_for(
+        Blocker{step.id, std::nullopt, *arm, region.proximity, region.time_a, region.time_b}));
   }
-  if (!waits.empty()) return put_off(state, record, std::move(waits));
-  enter(state, record, Admitted{});
-  record.job.times.scheduled_at = state.now;
+  if (!waits.empty()) return put_off(state, step, std::move(waits));
+  enter(state, step, Admitted{});
+  step.times.scheduled_at = state.now;
   ++state.version;
-  note_free(state, record);
-  state.jobs.changed(record);
+  note_free(state, step);
+  state.jobs.changed(step);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
-    Question question = question_by_itself(state, state.jobs.at(*job).job);
+    Question question = question_by_itself(state, state.jobs.at(*job));
     ask_about(state, only_step(*job), std::move(question), Purpose::itself);
     return put_off;
   }
@@ -153,17 +153,17 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
-      Record& record = state.jobs.at(question.steps.front());
-      record.approaches.feasibility = Approaches::Feasibility::given;
+      Step& step = state.jobs.at(question.steps.front());
+      step.approaches.feasibility = Approaches::Feasibility::given;
       if (input.verdict.kind == Verdict::Kind::conflict) {
-        (void)fails_by_itself(state, record, input.verdict);
+        (void)fails_by_itself(state, step, input.verdict);
       }
       return;
     }
     case Purpose::recheck: {
-      Record& record = state.jobs.at(question.steps.front());
-      note_free(state, record);
-      if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
+      Step& step = state.jobs.at(question.steps.front());
+      note_free(state, step);
+      if (input.verdict.kind != Verdict::Kind::free) hold_back(state, step, input.verdict);
       return;
     }
     case Purpose::option:
@@ -198,35 +198,35 @@ void Admission::answer_option(State& state, Verdict verdict) {
   }
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {only_step(choosing_.job())});
-  Record& record = state.jobs.at(choosing_.job());
-  wait_behind(state, record, state.jobs.queues().before(record.job, record.leg.arms.front())->job);
+  Step& step = state.jobs.at(choosing_.job());
+  wait_behind(state, step, state.jobs.queues().before(step, step.leg.arms.front())->job);
 }
 
 void Admission::answer_start(State& state, const Verdict& verdict,
                              const std::vector<StepId>& steps) {
-  Record& first = state.jobs.at(steps.front());
+  Step& first = state.jobs.at(steps.front());
   if (verdict.kind == Verdict::Kind::free) {
-    if (state.graph.holds(first.job.step())) return go_on(state, first, verdict);
+    if (state.graph.holds(first.id)) return go_on(state, first, verdict);
     return decide(state, verdict, steps);
   }
   if (is_asked_again(first, verdict)) return;
   if (steps.size() == 1) return refuse(state, first, verdict);
   if (tries_together(state, steps, false)) return;
-  put_off(state, first, first.job.judgement().found);  // one that was to help it cannot go
+  put_off(state, first, first.judgement().found);  // one that was to help it cannot go
 }
 
 void Admission::decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps) {
-  Record& first = state.jobs.at(steps.front());
+  Step& first = state.jobs.at(steps.front());
   if (!follow_each_other(state, steps)) {
     // Another arm was chosen for a job before one of these, or its plan is old.
     if (steps.size() > 1 && !tries_together(state, steps, false)) {
-      put_off(state, first, first.job.judgement().found);
+      put_off(state, first, first.judgement().found);
     }
     return;
   }
   prepare_choice(state, steps);
   std::vector<CoordinatedMotion> candidates;
-  for (StepId step : steps) candidates.push_back(as_candidate(state, state.jobs.at(step).job));
+  for (StepId step : steps) candidates.push_back(as_candidate(state, state.jobs.at(step)));
   const PassingOrders orders =
       state.policy->decide(state.graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
@@ -244,27 +244,27 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<S
   }
   std::vector<Wait> waits;
   for (const Blocker& blocker : orders.blockers) {
-    if (blocker.blocked != first.job.step()) continue;
+    if (blocker.blocked != first.id) continue;
     if (blocker.arm) {
-      state.lanes.learn_in_the_way(first.job.step(), *blocker.arm,
-                                   {blocker.proximity, blocker.own_time}, state.jobs, state.arms);
+      state.lanes.learn_in_the_way(first.id, *blocker.arm, {blocker.proximity, blocker.own_time},
+                                   state.jobs, state.arms);
     }
     waits.push_back(wait_for(blocker));
   }
   if (steps.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
   std::vector<StepId> group = with_next_jobs(state, steps, orders.in_the_way);
   if (group.size() > steps.size()) return ask(state, group, outlook_with(state, group));
-  put_off(state, first, first.job.judgement().found);
+  put_off(state, first, first.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
 bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps) {
   auto outlook = outlook_with(state, steps);
-  Record& first = state.jobs.at(steps.front());
+  Step& first = state.jobs.at(steps.front());
   if (!outlook.unknown.empty()) {
     ask(state, steps, std::move(outlook));
   } else if (outlook.first && steps.size() > 1) {
-    put_off(state, first, first.job.judgement().found);  // not so
+    put_off(state, first, first.judgement().found);  // not so
   } else if (outlook.first) {
     wait_in_turn(state, first, outlook);
   } else {

@@ -18,33 +18,32 @@ void note_overtaken(State& state, const std::vector<StepId>& admitted) {
     if (!queue.empty()) firsts.insert(queue.front());
   }
   for (const StepId first : firsts) {
-    Record& record = state.jobs.at(first);
-    const bool waits_long = record.job.in<Queued>() != nullptr && state.has_aged(record);
+    Step& step = state.jobs.at(first);
+    const bool waits_long = step.in<Queued>() != nullptr && state.has_aged(step);
     if (!waits_long) continue;
-    const auto overtaking = std::ranges::count_if(admitted, [&](StepId step) {
-      const Record& other = state.jobs.at(step);
-      return step != first && !other.job.system_job && record.turn < other.turn;
+    const auto overtaking = std::ranges::count_if(admitted, [&](StepId id) {
+      const Step& other = state.jobs.at(id);
+      return id != first && !other.job->system_job && step.job->turn < other.job->turn;
     });
     if (overtaking == 0) continue;
-    const std::size_t before = record.job.starvation ? record.job.starvation->overtaken_by : 0;
-    record.job.starvation =
-        Starvation{record.ages_from->at, before + static_cast<std::size_t>(overtaking)};
-    state.jobs.changed(record);
+    const std::size_t before = step.starvation ? step.starvation->overtaken_by : 0;
+    step.starvation = Starvation{step.ages_from->at, before + static_cast<std::size_t>(overtaking)};
+    state.jobs.changed(step);
   }
 }
 
 }  // namespace
 
-void note_free(State& state, Record& record) {
-  record.asking.found_free_at = state.version;
-  record.asking.is_in_question = false;
+void note_free(State& state, Step& step) {
+  step.asking.found_free_at = state.version;
+  step.asking.is_in_question = false;
 }
 
 void admit(State& state, const std::vector<StepId>& steps,
            std::vector<CoordinatedMotion> candidates, const PassingOrders& orders) {
   state.lanes.admitted(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Trajectory& trajectory = *state.jobs.at(steps[i]).job.trajectory;
+    const Trajectory& trajectory = *state.jobs.at(steps[i]).trajectory;
     candidates[i].horizon = from_seconds(stopping_reach_s(*state.cell, trajectory)) +
                             state.cell->monitor.reaction +
                             promises_of(*state.cell, trajectory.arms()).free_run();
@@ -53,15 +52,15 @@ void admit(State& state, const std::vector<StepId>& steps,
   ++state.version;
   const std::size_t before = state.graph.motions().size() - steps.size();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    Record& record = state.jobs.at(steps[i]);
-    if (record.job.has_open_arm()) state.jobs.decide_arm(record);
-    enter(state, record, Admitted{});
-    record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
-    record.job.waits_on.clear();
-    record.job.starvation.reset();
-    note_free(state, record);
-    record.asking.effort = 1;
-    state.jobs.changed(record);
+    Step& step = state.jobs.at(steps[i]);
+    if (step.has_open_arm()) state.jobs.decide_arm(step);
+    enter(state, step, Admitted{});
+    step.times.scheduled_at = state.now + orders.prediction.begins[before + i];
+    step.waits_on.clear();
+    step.starvation.reset();
+    note_free(state, step);
+    step.asking.effort = 1;
+    state.jobs.changed(step);
   }
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
   note_overtaken(state, steps);

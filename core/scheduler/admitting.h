@@ -12,6 +12,6 @@ void admit(State& state, const std::vector<StepId>& steps,
            std::vector<CoordinatedMotion> candidates, const PassingOrders& orders);
 
 // Records that a check found the admitted motion free in the present version.
-void note_free(State& state, Record& record);
+void note_free(State& state, Step& step);
 
 }  // namespace armloom

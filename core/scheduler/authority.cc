@@ -12,87 +12,85 @@
 namespace armloom {
 namespace {
 
-void explain_pause(State& state, Record& record) {
-  if (auto speed = speed_wait(state, record.job)) {
-    return state.jobs.set_wait(record, std::move(*speed));
+void explain_pause(State& state, Step& step) {
+  if (auto speed = speed_wait(state, step)) {
+    return state.jobs.set_wait(step, std::move(*speed));
   }
-  const auto held = state.graph.held_back(record.job.step());
-  if (held) state.jobs.set_wait(record, wait_for(*held));
+  const auto held = state.graph.held_back(step.id);
+  if (held) state.jobs.set_wait(step, wait_for(*held));
 }
 
-void pause_at_rest(State& state, Record& record) {
-  if (!record.job.has_started() || record.job.pausing()) return;
-  std::get<Admitted>(record.job.phase).pause.emplace();
-  state.jobs.changed(record);
+void pause_at_rest(State& state, Step& step) {
+  if (!step.has_started() || step.pausing()) return;
+  std::get<Admitted>(step.phase).pause.emplace();
+  state.jobs.changed(step);
 }
 
-void dispatch_if_ready(State& state, Record& record) {
-  Job& job = record.job;
-  if (!is_at_head(state.jobs, record)) return;
-  if (!record.ages_from) record.ages_from = {state.now, state.clock()};
-  if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
-    return withdraw(state, record, {});
+void dispatch_if_ready(State& state, Step& step) {
+  if (!is_at_head(state.jobs, step)) return;
+  if (!step.ages_from) step.ages_from = {state.now, state.clock()};
+  if (!step.has_started() && state.arms.start_mismatch(*state.cell, *step.trajectory)) {
+    return withdraw(state, step, {});
   }
-  if (auto wait = operator_wait(state, job)) return state.jobs.set_wait(record, *wait);
-  if (record.asking.is_in_question) return;
-  const Duration limit = state.graph.limit(job.step());
-  if (limit <= job.progress && job.progress < job.trajectory->duration()) {
-    const auto held = state.graph.held_back(job.step());
-    if (held && held->arm && !job.has_started()) return withdraw(state, record, {});
-    pause_at_rest(state, record);  // stopped on its way: it waits there until it may go on
-    explain_pause(state, record);
+  if (auto wait = operator_wait(state, step)) return state.jobs.set_wait(step, *wait);
+  if (step.asking.is_in_question) return;
+  const Duration limit = state.graph.limit(step.id);
+  if (limit <= step.progress && step.progress < step.trajectory->duration()) {
+    const auto held = state.graph.held_back(step.id);
+    if (held && held->arm && !step.has_started()) return withdraw(state, step, {});
+    pause_at_rest(state, step);  // stopped on its way: it waits there until it may go on
+    explain_pause(state, step);
     return;
   }
-  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.step()));
-  state.graph.granted(job.step(), authority);
-  if (!job.has_started()) record.off_path = off_path_of(state, record);
-  enter(state, record,
-        Moving{.overrun_at = overrun_after(state, job),
+  const Duration authority = std::min(limit, step.progress + state.graph.horizon(step.id));
+  state.graph.granted(step.id, authority);
+  if (!step.has_started()) step.off_path = off_path_of(state, step);
+  enter(state, step,
+        Moving{.overrun_at = overrun_after(state, step),
                .moved_at = state.now,
                .goes_since = state.now,
-               .goes_from = job.progress});
-  job.times.scheduled_at = state.now;
-  state.jobs.set_waits(record, {});
-  state.decided.effects.push_back(Dispatch{job.step(), state.now, job.progress, authority});
+               .goes_from = step.progress});
+  step.times.scheduled_at = state.now;
+  state.jobs.set_waits(step, {});
+  state.decided.effects.push_back(Dispatch{step.id, state.now, step.progress, authority});
 }
 
-void extend_own_authority(State& state, const Record& record) {
-  const Job& job = record.job;
-  if (job.in<Moving>() == nullptr) return;
-  const Duration limit = state.graph.limit(job.step());
-  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.step()));
-  const Duration granted = state.graph.find(job.step())->authority;
+void extend_own_authority(State& state, const Step& step) {
+  if (step.in<Moving>() == nullptr) return;
+  const Duration limit = state.graph.limit(step.id);
+  const Duration authority = std::min(limit, step.progress + state.graph.horizon(step.id));
+  const Duration granted = state.graph.find(step.id)->authority;
   if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  state.graph.granted(job.step(), authority);
-  state.decided.effects.push_back(Grant{job.step(), authority});
+  state.graph.granted(step.id, authority);
+  state.decided.effects.push_back(Grant{step.id, authority});
 }
 
-void go_on(State& state, Record& record) {
-  if (record.job.in<Admitted>() != nullptr) {
-    dispatch_if_ready(state, record);
+void go_on(State& state, Step& step) {
+  if (step.in<Admitted>() != nullptr) {
+    dispatch_if_ready(state, step);
   } else {
-    extend_own_authority(state, record);
+    extend_own_authority(state, step);
   }
 }
 
 }  // namespace
 
 // At share 0 there is no such time.
-TimePoint overrun_after(const State& state, const Job& job) {
-  const auto& arms = job.trajectory->arms();
+TimePoint overrun_after(const State& state, const Step& step) {
+  const auto& arms = step.trajectory->arms();
   if (state.speed.effective(arms) == 0.0) return TimePoint::max();
-  const Duration left = paced(job.trajectory->duration() - job.progress, state.speed.pace(arms));
+  const Duration left = paced(step.trajectory->duration() - step.progress, state.speed.pace(arms));
   return state.now + from_seconds(to_seconds(left) * state.cell->execution.duration_scaling) +
-         promises_of(*state.cell, job.trajectory->arms())
+         promises_of(*state.cell, step.trajectory->arms())
              .overrun_margin(state.cell->execution.duration_margin);
 }
 
 void dispatch_ready(State& state) {
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Record& record = state.jobs.at(id);
-    go_on(state, record);
-    if (record.job.pausing()) explain_pause(state, record);
+    Step& step = state.jobs.at(id);
+    go_on(state, step);
+    if (step.pausing()) explain_pause(state, step);
   }
 }
 
@@ -107,30 +105,29 @@ void extend_authority(State& state, StepId moved) {
   for (StepId step : behind) go_on(state, state.jobs.at(step));
 }
 
-void see_pauses(State& state, Record& record, Duration progress_before) {
-  Job& job = record.job;
-  auto* moving = std::get_if<Moving>(&job.phase);
+void see_pauses(State& state, Step& step, Duration progress_before) {
+  auto* moving = std::get_if<Moving>(&step.phase);
   if (moving == nullptr || !moving->is_under_way) return;
-  const Duration limit = state.graph.limit(job.step());
-  const bool is_held = limit < job.trajectory->duration();
-  if (is_held && job.progress + state.graph.horizon(job.step()) >= limit) {
-    moving->overrun_at = overrun_after(state, job);
+  const Duration limit = state.graph.limit(step.id);
+  const bool is_held = limit < step.trajectory->duration();
+  if (is_held && step.progress + state.graph.horizon(step.id) >= limit) {
+    moving->overrun_at = overrun_after(state, step);
     moving->moved_at = state.now;
     moving->goes_since = state.now;
-    moving->goes_from = job.progress;
+    moving->goes_from = step.progress;
   }
-  if (job.progress > progress_before) {
+  if (step.progress > progress_before) {
     if (!moving->pause) return;
     moving->pause.reset();
-    state.jobs.set_waits(record, {});
-    state.jobs.changed(record);
+    state.jobs.set_waits(step, {});
+    state.jobs.changed(step);
     return;
   }
-  const bool is_at_limit = is_held && job.progress + kAtLimit >= limit;
-  if ((is_at_limit || speed_wait(state, job)) && !moving->pause) {
+  const bool is_at_limit = is_held && step.progress + kAtLimit >= limit;
+  if ((is_at_limit || speed_wait(state, step)) && !moving->pause) {
     moving->pause.emplace();
-    explain_pause(state, record);
-    state.jobs.changed(record);
+    explain_pause(state, step);
+    state.jobs.changed(step);
   }
 }
 

@@ -7,7 +7,7 @@ namespace armloom {
 // Gives admitted motions authority to move, as far as their passing orders allow.
 
 // Returns when the motion may have overrun if it continues from now at its speed override.
-[[nodiscard]] TimePoint overrun_after(const State& state, const Job& job);
+[[nodiscard]] TimePoint overrun_after(const State& state, const Step& step);
 // Dispatches admitted motions whose orders let them leave their start, and extends the authority of
 // motions under way.
 void dispatch_ready(State& state);
@@ -15,6 +15,6 @@ void dispatch_ready(State& state);
 void extend_authority(State& state, StepId moved);
 // Records that a motion pauses at its limit or continues. Time that it loses there does not count
 // as overrun.
-void see_pauses(State& state, Record& record, Duration progress_before);
+void see_pauses(State& state, Step& step, Duration progress_before);
 
 }  // namespace armloom

@@ -12,9 +12,9 @@ namespace armloom {
 namespace {
 
 // Its time has passed, and it stands still.
-bool overruns(Job& job, TimePoint now) {
-  auto* moving = std::get_if<Moving>(&job.phase);
-  if (moving == nullptr || job.awaits_record || now < moving->overrun_at) return false;
+bool overruns(Step& step, TimePoint now) {
+  auto* moving = std::get_if<Moving>(&step.phase);
+  if (moving == nullptr || step.job->awaits_record || now < moving->overrun_at) return false;
   moving->overrun_at = std::max(moving->overrun_at, moving->moved_at + kStandstill);
   return now >= moving->overrun_at;
 }
@@ -32,13 +32,13 @@ auto* pause_of(JobType& job) {
 }
 
 // On its path, where only a job of another arm that has none, or another scene, would let it go on.
-void see_whether_in_vain(const State& state, Record& record) {
-  Pause* pause = pause_of(record.job);
+void see_whether_in_vain(const State& state, Step& step) {
+  Pause* pause = pause_of(step);
   if (pause == nullptr) return;
-  if (operator_wait(state, record.job)) return pause->in_vain_since.reset();
-  const bool held = record.job.in<Held>() != nullptr;
-  if (held && !state.is_judged(record.job)) return;  // not known yet
-  const FoundWaits waits = found_in_the_way(state, record);
+  if (operator_wait(state, step)) return pause->in_vain_since.reset();
+  const bool held = step.in<Held>() != nullptr;
+  if (held && !state.is_judged(step)) return;  // not known yet
+  const FoundWaits waits = found_in_the_way(state, step);
   const bool in_vain = std::ranges::any_of(waits.all(), [&](const Wait& wait) {
     return wait.kind == Wait::Kind::object || is_idle_arm(state, wait);
   });
@@ -46,56 +46,55 @@ void see_whether_in_vain(const State& state, Record& record) {
   if (in_vain && !pause->in_vain_since) pause->in_vain_since = state.clock();
 }
 
-void fail_overdue(State& state, Record& record) {
-  const Duration stood = state.now - record.job.in<Moving>()->moved_at;
-  give_up(state, record,
+void fail_overdue(State& state, Step& step) {
+  const Duration stood = state.now - step.in<Moving>()->moved_at;
+  give_up(state, step,
           {AfterStop::Then::fail, Reason::overrun,
            "has not moved for " + seconds_text(stood) +
                ", and has exceeded the time that it may take "
                "(duration x duration_scaling + duration_margin_s)"});
 }
 
-std::optional<TimePoint> deadline_of(const State& state, const Job& job) {
-  if (job.is_replanned_now()) return std::nullopt;  // until that is answered
-  const auto expiry = expiry_of(state, job);
-  const auto* moving = job.in<Moving>();
-  if (moving == nullptr || job.awaits_record) return expiry;
+std::optional<TimePoint> deadline_of(const State& state, const Step& step) {
+  if (step.is_replanned_now()) return std::nullopt;  // until that is answered
+  const auto expiry = expiry_of(state, step);
+  const auto* moving = step.in<Moving>();
+  if (moving == nullptr || step.job->awaits_record) return expiry;
   return expiry ? std::min(moving->overrun_at, *expiry) : moving->overrun_at;
 }
 
 }  // namespace
 
-std::optional<TimePoint> expiry_of(const State& state, const Job& job) {
-  if (job.is_replanned_now()) return std::nullopt;  // until that is answered
-  if (job.state() == JobState::backlogged)
-    return state.speed.when(job.times.backlog_clock + *job.terms.backlog_timeout);
-  const Pause* pause = pause_of(job);
+std::optional<TimePoint> expiry_of(const State& state, const Step& step) {
+  if (step.is_replanned_now()) return std::nullopt;  // until that is answered
+  if (step.state() == JobState::backlogged)
+    return state.speed.when(step.times.backlog_clock + *step.job->terms.backlog_timeout);
+  const Pause* pause = pause_of(step);
   if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
-  return state.speed.when(*pause->in_vain_since + *job.terms.backlog_timeout);
+  return state.speed.when(*pause->in_vain_since + *step.job->terms.backlog_timeout);
 }
 
 void expire_and_overrun(State& state) {
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Record& record = state.jobs.at(id);
-    Job& job = record.job;
-    if (job.state() == JobState::backlogged) {
-      const auto expiry = expiry_of(state, job);
-      if (!expiry || state.now < *expiry || goes_on_after_timeout(state, record)) continue;
-      end(state, record, JobState::expired, Reason::backlog_timeout,
-          "waited " + seconds_text(*job.terms.backlog_timeout) + " in the backlog");
+    Step& step = state.jobs.at(id);
+    if (step.state() == JobState::backlogged) {
+      const auto expiry = expiry_of(state, step);
+      if (!expiry || state.now < *expiry || goes_on_after_timeout(state, step)) continue;
+      end(state, step, JobState::expired, Reason::backlog_timeout,
+          "waited " + seconds_text(*step.job->terms.backlog_timeout) + " in the backlog");
       continue;
     }
-    see_whether_in_vain(state, record);
-    const auto expiry = expiry_of(state, job);
+    see_whether_in_vain(state, step);
+    const auto expiry = expiry_of(state, step);
     const bool in_vain = expiry && state.now >= *expiry;
-    if (in_vain && goes_on_after_timeout(state, record)) continue;
+    if (in_vain && goes_on_after_timeout(state, step)) continue;
     if (in_vain) {
-      give_up(state, record,
+      give_up(state, step,
               {AfterStop::Then::fail, Reason::backlog_timeout,
-               "waited " + seconds_text(*job.terms.backlog_timeout) + " on its path"});
-    } else if (overruns(job, state.now)) {
-      fail_overdue(state, record);
+               "waited " + seconds_text(*step.job->terms.backlog_timeout) + " on its path"});
+    } else if (overruns(step, state.now)) {
+      fail_overdue(state, step);
     }
   }
 }
@@ -103,9 +102,9 @@ void expire_and_overrun(State& state) {
 std::optional<TimePoint> next_deadline(State& state) {
   std::optional<TimePoint> next;
   for (JobId id : state.jobs.past_queue()) {
-    Record& record = state.jobs.at(id);
-    see_whether_in_vain(state, record);
-    const auto deadline = deadline_of(state, record.job);
+    Step& step = state.jobs.at(id);
+    see_whether_in_vain(state, step);
+    const auto deadline = deadline_of(state, step);
     if (deadline) next = next ? std::min(*next, *deadline) : deadline;
   }
   return next;

@@ -14,7 +14,7 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 // Returns when the job's backlog timeout is over if nothing changes; nullopt if the timeout is not
 // running, or TimePoint::max() if it stands still because a speed override is 0. The timeout counts
 // by the motion clock (SpeedOverride).
-[[nodiscard]] std::optional<TimePoint> expiry_of(const State& state, const Job& job);
+[[nodiscard]] std::optional<TimePoint> expiry_of(const State& state, const Step& step);
 
 // Ends motions that overrun, and jobs whose timeout is over. With OnTimeout::replan, a job is
 // replanned first.

@@ -28,10 +28,10 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<StepId>& gro
 }
 
 // It could go when those before it on its arms have gone.
-bool may_follow(const State& state, const Record& record) {
-  return record.job.is_waiting() && !record.job.is_unplanned() && record.job.after.empty() &&
-         !lets_another_pass(state.jobs, record) && !operator_wait(state, record.job) &&
-         state.lanes.follows_on(record.job.step()) && !holds_one_ahead(state, record);
+bool may_follow(const State& state, const Step& step) {
+  return step.is_waiting() && !step.is_unplanned() && step.job->after.empty() &&
+         !lets_another_pass(state.jobs, step) && !operator_wait(state, step) &&
+         state.lanes.follows_on(step.id) && !holds_one_ahead(state, step);
 }
 
 }  // namespace
@@ -40,12 +40,12 @@ std::vector<StepId> with_all_that_wait(const State& state, const std::vector<Ste
   std::vector<StepId> all = group;
   std::vector<std::size_t> left(state.cell->arms.size(), kTogetherMax);
   for (JobId id : in_turn(state.jobs, first_of_arms(state, group))) {
-    const Record& record = state.jobs.at(id);
-    const auto& arms = record.job.trajectory->arms();
+    const Step& step = state.jobs.at(id);
+    const auto& arms = step.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
-    bool goes = room && may_follow(state, record);
+    bool goes = room && may_follow(state, step);
     if (goes) {
-      all.push_back(record.job.step());
+      all.push_back(step.id);
       goes = follow_each_other(state, all);
       if (!goes) all.pop_back();
     }
@@ -66,11 +66,11 @@ bool follow_each_other(const State& state, const std::vector<StepId>& steps) {
   const auto is_near = [&](const PlacePtr& begins, const PlacePtr& at) {
     return begins == at || (begins->q - at->q).cwiseAbs().maxCoeff() <= tolerance;
   };
-  return std::ranges::all_of(steps, [&](StepId step) {
-    const Record& record = state.jobs.at(step);
-    const WaitingLeg& leg = record.leg;
+  return std::ranges::all_of(steps, [&](StepId id) {
+    const Step& step = state.jobs.at(id);
+    const WaitingLeg& leg = step.leg;
     bool follows = true;
-    for (std::size_t i = 0; i < leg.arms.size() && !record.job.has_started(); ++i) {
+    for (std::size_t i = 0; i < leg.arms.size() && !step.has_started(); ++i) {
       follows = follows && is_near(leg.from[i], stands[leg.arms[i].index()]);
     }
     comes(leg);
@@ -90,10 +90,10 @@ std::vector<StepId> with_next_jobs(const State& state, std::vector<StepId> group
   for (ArmId arm : in_the_way) {
     const auto next = next_of(arm);
     if (!next || group.size() >= 2 * state.cell->arms.size()) continue;
-    const Record& record = state.jobs.at(*next);
-    const bool is_next = std::ranges::all_of(record.job.trajectory->arms(),
+    const Step& step = state.jobs.at(*next);
+    const bool is_next = std::ranges::all_of(step.trajectory->arms(),
                                              [&](ArmId own) { return next_of(own) == next; });
-    if (is_next && may_follow(state, record)) group.push_back(*next);
+    if (is_next && may_follow(state, step)) group.push_back(*next);
   }
   return group;
 }

@@ -7,8 +7,8 @@ namespace armloom {
 namespace {
 
 // Returns the phase of a job that brakes and then ends; null if it goes on to its goal.
-const Braking* ends_by_braking(const Job& job) {
-  const auto* braking = job.in<Braking>();
+const Braking* ends_by_braking(const Step& step) {
+  const auto* braking = step.in<Braking>();
   return braking != nullptr && braking->after.then != AfterStop::Then::hold ? braking : nullptr;
 }
 
@@ -20,7 +20,7 @@ Configuration Scheduler::predicted_rest() const {
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
     const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    const Job& last = state_.jobs.at(queue.back()).job;
+    const Step& last = state_.jobs.at(queue.back());
     const Braking* braking = ends_by_braking(last);
     if (braking == nullptr || !braking->rests_at) {
       follow_to_end(q, *state_.cell, ArmId{arm}, *last.trajectory);
@@ -38,16 +38,16 @@ std::vector<ArmId> Scheduler::open_ends() const {
   for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
     const auto& queue = state_.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    const Job& last = state_.jobs.at(queue.back()).job;
+    const Step& last = state_.jobs.at(queue.back());
     const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
     const Braking* braking = ends_by_braking(last);
     const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
     if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
   }
   for (JobId id : state_.jobs.undecided()) {
-    const Job& job = state_.jobs.at(id).job;
-    if (!job.goal) continue;
-    for (const GoalWay& way : job.goal->ways) open.push_back(way.goal.arm);
+    const Step& step = state_.jobs.at(id);
+    if (!step.goal) continue;
+    for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
   }
   return open;
 }

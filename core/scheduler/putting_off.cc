@@ -17,12 +17,12 @@ constexpr const char* kUndecided = "undecided: the check exceeded its budget of 
 constexpr int kRaisedMax = 12;
 
 // Nothing: it hits itself, and has not begun.
-std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const Verdict& verdict) {
-  if (fails_by_itself(state, record, verdict)) return std::nullopt;
+std::optional<std::vector<Wait>> waits_for(State& state, Step& step, const Verdict& verdict) {
+  if (fails_by_itself(state, step, verdict)) return std::nullopt;
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) {
     if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
-      state.lanes.learn_in_the_way(record.job.step(), *conflict.proximity.arm_b,
+      state.lanes.learn_in_the_way(step.id, *conflict.proximity.arm_b,
                                    {conflict.proximity, conflict.own_time}, state.jobs, state.arms);
     }
     waits.push_back(wait_for(conflict));
@@ -32,105 +32,104 @@ std::optional<std::vector<Wait>> waits_for(State& state, Record& record, const V
 }
 
 // As it was found before; what is otherwise by now is seen when ways aside are tried.
-bool has_no_way_aside(const Job& job, const Wait& wait) {
-  return std::ranges::any_of(job.waits_on, [&](const Wait& was) {
+bool has_no_way_aside(const Step& step, const Wait& wait) {
+  return std::ranges::any_of(step.waits_on, [&](const Wait& was) {
     return was.has_no_way_aside && was.arm == wait.arm && was.kind == wait.kind;
   });
 }
 
-Judgement& judgement_of(Record& record) {
-  auto* held = std::get_if<Held>(&record.job.phase);
-  return held != nullptr ? held->judgement : std::get<Queued>(record.job.phase).judgement;
+Judgement& judgement_of(Step& step) {
+  auto* held = std::get_if<Held>(&step.phase);
+  return held != nullptr ? held->judgement : std::get<Queued>(step.phase).judgement;
 }
 
 // Out of the backlog, where it is there.
-void stay_queued(State& state, Record& record, Judgement found) {
-  if (gives_detour_up(state, record)) return;
-  const auto* queued = record.job.in<Queued>();
+void stay_queued(State& state, Step& step, Judgement found) {
+  if (gives_detour_up(state, step)) return;
+  const auto* queued = step.in<Queued>();
   if (queued != nullptr && queued->in_backlog) {
-    enter(state, record, Queued{});
-    record.job.times.backlogged_at.reset();
-    state.jobs.changed(record);
+    enter(state, step, Queued{});
+    step.times.backlogged_at.reset();
+    state.jobs.changed(step);
   }
-  judgement_of(record) = std::move(found);
-  if (!record.ages_from && is_at_head(state.jobs, record)) {
-    record.ages_from = {state.now, state.clock()};
+  judgement_of(step) = std::move(found);
+  if (!step.ages_from && is_at_head(state.jobs, step)) {
+    step.ages_from = {state.now, state.clock()};
   }
-  state.jobs.set_waits(record, record.job.judgement().found);
+  state.jobs.set_waits(step, step.judgement().found);
 }
 
 }  // namespace
 
-bool fails_by_itself(State& state, Record& record, const Verdict& verdict) {
+bool fails_by_itself(State& state, Step& step, const Verdict& verdict) {
   const auto self = std::ranges::find(verdict.conflicts, Conflict::With::self, &Conflict::with);
-  if (self == verdict.conflicts.end() || record.job.has_started()) return false;
-  end(state, record, JobState::failed, Reason::self_collision, self_collision_text(*self));
+  if (self == verdict.conflicts.end() || step.has_started()) return false;
+  end(state, step, JobState::failed, Reason::self_collision, self_collision_text(*self));
   return true;
 }
 
-void note_found(Record& record, std::vector<Wait> waits) {
-  judgement_of(record).found = std::move(waits);
+void note_found(Step& step, std::vector<Wait> waits) {
+  judgement_of(step).found = std::move(waits);
 }
 
-void put_off(State& state, Record& record, std::vector<Wait> waits) {
-  record.asking.effort = 1;
-  if (gives_detour_up(state, record)) return;
-  for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(record.job, wait);
-  state.jobs.set_waits(record, waits);
-  judgement_of(record) = {state.version, std::move(waits)};
-  if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
-  if (!record.ages_from) record.ages_from = {state.now, state.clock()};
-  const auto* queued = record.job.in<Queued>();
+void put_off(State& state, Step& step, std::vector<Wait> waits) {
+  step.asking.effort = 1;
+  if (gives_detour_up(state, step)) return;
+  for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(step, wait);
+  state.jobs.set_waits(step, waits);
+  judgement_of(step) = {state.version, std::move(waits)};
+  if (!is_at_head(state.jobs, step)) return;  // it has had no turn yet
+  if (!step.ages_from) step.ages_from = {state.now, state.clock()};
+  const auto* queued = step.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {
-    enter(state, record, Queued{.in_backlog = true, .judgement = queued->judgement});
-    if (!record.job.times.backlogged_at) {
-      record.job.times.backlogged_at = state.now;
-      record.job.times.backlog_clock = state.clock();
+    enter(state, step, Queued{.in_backlog = true, .judgement = queued->judgement});
+    if (!step.times.backlogged_at) {
+      step.times.backlogged_at = state.now;
+      step.times.backlog_clock = state.clock();
     }
-    state.jobs.changed(record);
+    state.jobs.changed(step);
   }
 }
 
-bool put_off_where_it_stands(State& state, Record& record) {
-  const GoalWay* way = record.job.stands_in();
+bool put_off_where_it_stands(State& state, Step& step) {
+  const GoalWay* way = step.stands_in();
   if (way == nullptr) return false;
-  put_off(state, record, {Wait{.kind = Wait::Kind::object, .proximity = way->stands_in}});
+  put_off(state, step, {Wait{.kind = Wait::Kind::object, .proximity = way->stands_in}});
   return true;
 }
 
-void wait_behind(State& state, Record& record, JobId first) {
-  stay_queued(state, record,
-              {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
+void wait_behind(State& state, Step& step, JobId first) {
+  stay_queued(state, step, {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
 }
 
-void wait_in_turn(State& state, Record& record, const SafeSequence::Outlook& outlook) {
+void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook) {
   Wait wait{.kind = Wait::Kind::predecessor, .job = outlook.first->job};
-  const auto& ends = record.leg.to;
+  const auto& ends = step.leg.to;
   if (outlook.block && std::ranges::find(ends, outlook.in_the_way) != ends.end()) {
     wait.arm = outlook.block->proximity.arm_a;
     wait.proximity = turned_around(outlook.block->proximity);
-    wait.own_time = record.job.trajectory->duration();
+    wait.own_time = step.trajectory->duration();
     wait.other_time = outlook.block->time;
   }
-  stay_queued(state, record, {state.version, {std::move(wait)}, outlook.first});
+  stay_queued(state, step, {state.version, {std::move(wait)}, outlook.first});
 }
 
-void refuse(State& state, Record& record, const Verdict& verdict) {
-  if (auto waits = waits_for(state, record, verdict)) put_off(state, record, std::move(*waits));
+void refuse(State& state, Step& step, const Verdict& verdict) {
+  if (auto waits = waits_for(state, step, verdict)) put_off(state, step, std::move(*waits));
 }
 
-void hold_back(State& state, Record& record, const Verdict& verdict) {
-  auto waits = waits_for(state, record, verdict);
+void hold_back(State& state, Step& step, const Verdict& verdict) {
+  auto waits = waits_for(state, step, verdict);
   if (!waits) return;
-  brake(state, record, {});
-  state.jobs.set_waits(record, *waits);
+  brake(state, step, {});
+  state.jobs.set_waits(step, *waits);
 }
 
-bool is_asked_again(Record& record, const Verdict& verdict) {
-  const auto effort = larger_effort(verdict, record.asking.effort);
-  if (!effort || record.asking.raised >= kRaisedMax) return false;
-  record.asking.effort = *effort;
-  ++record.asking.raised;
+bool is_asked_again(Step& step, const Verdict& verdict) {
+  const auto effort = larger_effort(verdict, step.asking.effort);
+  if (!effort || step.asking.raised >= kRaisedMax) return false;
+  step.asking.effort = *effort;
+  ++step.asking.raised;
   return true;
 }
 

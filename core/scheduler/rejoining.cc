@@ -37,11 +37,11 @@ OffPath off_path_at(const State& state, ArmId arm, const Trajectory& motion, Dur
   return far;
 }
 
-OffPath nearest_on_path(const State& state, ArmId arm, const Record& record) {
-  const Trajectory& motion = *record.job.trajectory;
-  OffPath nearest = off_path_at(state, arm, motion, record.job.progress);
-  for (Duration at = record.job.progress; at < record.farthest;) {
-    at = std::min(at + kAheadStep, record.farthest);
+OffPath nearest_on_path(const State& state, ArmId arm, const Step& step) {
+  const Trajectory& motion = *step.trajectory;
+  OffPath nearest = off_path_at(state, arm, motion, step.progress);
+  for (Duration at = step.progress; at < step.farthest;) {
+    at = std::min(at + kAheadStep, step.farthest);
     const OffPath one = off_path_at(state, arm, motion, at);
     if (one.distance < nearest.distance) nearest = one;
   }
@@ -53,18 +53,17 @@ OffPath nearest_on_path(const State& state, ArmId arm, const Record& record) {
 void rejoin(State& state, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
   if (queue.empty() || state.arms.is_stopped(arm)) return;
-  Record& record = state.jobs.at(queue.front());
-  Job& job = record.job;
-  if (!job.has_started() || job.has_authority()) return;
-  const OffPath off = nearest_on_path(state, arm, record);
+  Step& step = state.jobs.at(queue.front());
+  if (!step.has_started() || step.has_authority()) return;
+  const OffPath off = nearest_on_path(state, arm, step);
   if (off.distance <= state.cell->execution.start_tolerance_rad) {
     const bool is_within = off.distance <= state.cell->tracking_error(state.cell->arm(arm).robot);
-    if (!is_within) record.off_path = std::max(record.off_path, off.distance);
+    if (!is_within) step.off_path = std::max(step.off_path, off.distance);
     return;
   }
-  const bool rejoins = job.goal || job.terms.move_to_start == MoveToStart::plan;
-  if (rejoins && !why_not_replanned(job)) {
-    return ask_for_another_way(state, record, AnotherWay::Cause::blocked);
+  const bool rejoins = step.goal || step.job->terms.move_to_start == MoveToStart::plan;
+  if (rejoins && !why_not_replanned(step)) {
+    return ask_for_another_way(state, step, AnotherWay::Cause::blocked);
   }
   char text[256];
   std::snprintf(text, sizeof text,
@@ -72,7 +71,7 @@ void rejoin(State& state, ArmId arm) {
                 "at %.6g",
                 state.cell->joint(off.joint).name.c_str(),
                 state.arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
-  give_up(state, record,
+  give_up(state, step,
           {.then = AfterStop::Then::fail, .reason = Reason::start_mismatch, .detail = text});
 }
 

@@ -27,28 +27,28 @@
 namespace armloom {
 namespace {
 
-void note_moved(const State& state, Job& job) {
-  auto* moving = std::get_if<Moving>(&job.phase);
+void note_moved(const State& state, Step& step) {
+  auto* moving = std::get_if<Moving>(&step.phase);
   if (moving == nullptr) return;
-  if (is_standing(*state.cell, job, state.now)) {
+  if (is_standing(*state.cell, step, state.now)) {
     moving->goes_since = state.now;
-    moving->goes_from = job.progress;
+    moving->goes_from = step.progress;
   }
   moving->moved_at = state.now;
   moving->was_compared = false;
 }
 
 // The first one of a job: it has started.
-void note_progress(State& state, Record& record) {
-  auto* moving = std::get_if<Moving>(&record.job.phase);
-  if (record.job.state() == JobState::scheduled) {
+void note_progress(State& state, Step& step) {
+  auto* moving = std::get_if<Moving>(&step.phase);
+  if (step.state() == JobState::scheduled) {
     if (moving != nullptr) moving->is_under_way = true;
-    auto* braking = std::get_if<Braking>(&record.job.phase);
+    auto* braking = std::get_if<Braking>(&step.phase);
     if (braking != nullptr) braking->state = JobState::running;
-    record.job.note_start(state.now);
-    state.jobs.changed(record);
+    step.note_start(state.now);
+    state.jobs.changed(step);
   }
-  if (moving != nullptr) extend_authority(state, record.job.step());
+  if (moving != nullptr) extend_authority(state, step.id);
 }
 
 // ---- Inputs that concern the shared state alone ----
@@ -80,8 +80,8 @@ void take(State& state, const Located& input) {
     explain_again(state, beside);
   }
   const auto& queue = state.jobs.queues()[input.arm];
-  Record* head = queue.empty() ? nullptr : &state.jobs.at(queue.front());
-  if (head != nullptr && head->job.has_authority()) return;
+  Step* head = queue.empty() ? nullptr : &state.jobs.at(queue.front());
+  if (head != nullptr && head->has_authority()) return;
   state.arms.locate(*state.cell, input.arm, input.position);
   ++state.version;
   state.lanes.renew_later();
@@ -89,10 +89,10 @@ void take(State& state, const Located& input) {
   compare_again(state);
 }
 void take(State& state, const StartRecorded& input) {
-  Record* record = state.jobs.find(input.step);
-  if (record == nullptr) return;
-  record->job.awaits_record = false;
-  renew_clocks(state, record->job, true);
+  Step* step = state.jobs.find(input.step);
+  if (step == nullptr) return;
+  state.jobs.change(*step).awaits_record = false;
+  renew_clocks(state, *step, true);
 }
 void take(State& state, const SetSpeed& input) { set_speed(state, input); }
 
@@ -100,9 +100,9 @@ void take(State& state, const SceneChanged& input) {
   state.scene_epoch = ++state.version;
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Record& record = state.jobs.at(id);
+    Step& step = state.jobs.at(id);
     const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
-    if (std::ranges::any_of(record.leg.arms, is_named)) record.asking.is_in_question = true;
+    if (std::ranges::any_of(step.leg.arms, is_named)) step.asking.is_in_question = true;
   }
   state.lanes.forget_passages();
 }
@@ -148,7 +148,7 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
 }
 
 void Scheduler::on(const Submit& input) {
-  add(state_, record_of(state_, input));
+  add(state_, step_of(state_, input));
   reopen_turn(state_, state_.jobs.at(input.job));
 }
 
@@ -232,52 +232,52 @@ void Scheduler::ask_for_wake() {
 // ---- Inputs ----
 
 void Scheduler::on(const Replan& input) {
-  Record* record = state_.jobs.find(input.job);
-  if (record == nullptr || record->job.has_ended() || why_not_replanned(record->job)) return;
-  ask_for_another_way(state_, *record, AnotherWay::Cause::client);
+  Step* step = state_.jobs.find(input.job);
+  if (step == nullptr || step->has_ended() || why_not_replanned(*step)) return;
+  ask_for_another_way(state_, *step, AnotherWay::Cause::client);
 }
 
 void Scheduler::on(const Cancel& input) {
-  Record* record = state_.jobs.find(input.job);
-  if (record == nullptr || record->job.has_ended()) return;
-  bool brakes = record->job.has_authority();
-  for (JobId approach : approaches_of(state_, *record)) {
-    brakes = brakes || state_.jobs.at(approach).job.has_authority();
+  Step* step = state_.jobs.find(input.job);
+  if (step == nullptr || step->has_ended()) return;
+  bool brakes = step->has_authority();
+  for (JobId approach : approaches_of(state_, *step)) {
+    brakes = brakes || state_.jobs.at(approach).has_authority();
     give_up(state_, state_.jobs.at(approach), {.then = AfterStop::Then::cancel});
   }
-  give_up(state_, *record, {.then = AfterStop::Then::cancel});
+  give_up(state_, *step, {.then = AfterStop::Then::cancel});
   if (brakes) compare_again(state_);
 }
 
 void Scheduler::on(const MotionReport& input) {
-  Record* record = state_.jobs.find(input.step);
-  if (record == nullptr || record->job.has_ended()) return;
-  const Duration before = std::exchange(record->job.progress, input.progress);
-  record->job.times.measured_at = state_.now;
-  if (input.progress > before) note_moved(state_, record->job);
+  Step* step = state_.jobs.find(input.step);
+  if (step == nullptr || step->has_ended()) return;
+  const Duration before = std::exchange(step->progress, input.progress);
+  step->times.measured_at = state_.now;
+  if (input.progress > before) note_moved(state_, *step);
   state_.graph.progress(input.step, input.progress);
-  see_pauses(state_, *record, before);
+  see_pauses(state_, *step, before);
   if (input.kind == MotionReport::Kind::progressed) {
-    note_progress(state_, *record);
-    if (auto* braking = std::get_if<Braking>(&record->job.phase)) {
+    note_progress(state_, *step);
+    if (auto* braking = std::get_if<Braking>(&step->phase)) {
       braking->rests_at = input.rests_at;
     }
   } else {
-    come_to_rest(state_, *record, input);
-    for (ArmId arm : record->job.trajectory->arms()) rejoin(state_, arm);
+    come_to_rest(state_, *step, input);
+    for (ArmId arm : step->trajectory->arms()) rejoin(state_, arm);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }
 }
 
 // ---- What others read ----
 
-const Job* Scheduler::find(JobId job) const {
-  const Record* record = state_.jobs.find(job);
-  return record != nullptr ? &record->job : nullptr;
+const Step* Scheduler::find(JobId job) const {
+  const Step* step = state_.jobs.find(job);
+  return step != nullptr ? step : nullptr;
 }
 
 std::optional<TimePoint> Scheduler::expiry(JobId job) const {
-  const Job* found = find(job);
+  const Step* found = find(job);
   if (found == nullptr) return std::nullopt;
   const auto expiry = expiry_of(state_, *found);
   return expiry == TimePoint::max() ? std::nullopt : expiry;
@@ -290,15 +290,15 @@ std::vector<JobId> Scheduler::active() const {
 std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const auto& queue = state_.jobs.queues()[arm];
   if (queue.empty()) return std::nullopt;
-  const Job& head = state_.jobs.at(queue.front()).job;
+  const Step& head = state_.jobs.at(queue.front());
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
-  return in_motion ? std::optional(head.id) : std::nullopt;
+  return in_motion ? std::optional(head.id.job) : std::nullopt;
 }
 
 void Scheduler::forget(JobId ended) {
-  const Job* job = find(ended);
-  if (job != nullptr && job->has_ended()) state_.jobs.forget(ended);
+  const Step* step = find(ended);
+  if (step != nullptr && step->has_ended()) state_.jobs.forget(ended);
 }
 
 std::optional<Duration> Scheduler::earliest_start(const Question& question,
@@ -308,7 +308,7 @@ std::optional<Duration> Scheduler::earliest_start(const Question& question,
   }
   if (question.candidates.size() != 1) return std::nullopt;
   const std::vector<CoordinatedMotion> candidate{
-      as_candidate(state_, state_.jobs.at(question.candidates.front().step).job)};
+      as_candidate(state_, state_.jobs.at(question.candidates.front().step))};
   const PassingOrders orders =
       orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
   if (!orders.blockers.empty()) return std::nullopt;

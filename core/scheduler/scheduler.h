@@ -84,7 +84,7 @@ class Scheduler {
   // Returns when the active job expires (deadlines.h).
   [[nodiscard]] std::optional<TimePoint> expiry(JobId job) const;
 
-  [[nodiscard]] const Job* find(JobId job) const;   // null if unknown or forgotten
+  [[nodiscard]] const Step* find(JobId job) const;  // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   // Returns true if the arm's queue has a job.
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }

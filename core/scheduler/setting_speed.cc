@@ -15,22 +15,22 @@ namespace {
 
 void renew_starts(State& state) {
   for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
-    Record& record = state.jobs.at(leg.step);
-    const bool is_to_start = record.job.in<Admitted>() != nullptr && !record.job.has_started();
-    if (!is_to_start || !leg.starts || record.job.times.scheduled_at == leg.starts) continue;
-    record.job.times.scheduled_at = leg.starts;
-    state.jobs.changed(record);
+    Step& step = state.jobs.at(leg.step);
+    const bool is_to_start = step.in<Admitted>() != nullptr && !step.has_started();
+    if (!is_to_start || !leg.starts || step.times.scheduled_at == leg.starts) continue;
+    step.times.scheduled_at = leg.starts;
+    state.jobs.changed(step);
   }
 }
 
 }  // namespace
 
-void renew_clocks(const State& state, Job& job, bool rested) {
-  auto* moving = std::get_if<Moving>(&job.phase);
+void renew_clocks(const State& state, Step& step, bool rested) {
+  auto* moving = std::get_if<Moving>(&step.phase);
   if (moving == nullptr) return;
-  moving->overrun_at = overrun_after(state, job);
+  moving->overrun_at = overrun_after(state, step);
   moving->goes_since = state.now;
-  moving->goes_from = job.progress;
+  moving->goes_from = step.progress;
   if (rested) moving->moved_at = state.now;
 }
 
@@ -41,10 +41,10 @@ void set_speed(State& state, const SetSpeed& input) {
   ++state.version;  // an answer that is under way shall start nothing at share 0
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Job& job = state.jobs.at(id).job;
-    const auto& arms = job.trajectory->arms();
+    Step& step = state.jobs.at(id);
+    const auto& arms = step.trajectory->arms();
     if (before.effective(arms) == state.speed.effective(arms)) continue;
-    renew_clocks(state, job, before.effective(arms) == 0.0);
+    renew_clocks(state, step, before.effective(arms) == 0.0);
   }
   std::vector<ArmId> all;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) all.emplace_back(arm);
@@ -60,16 +60,16 @@ void explain_again(State& state, const std::vector<ArmId>& arms) {
   for (const ArmId arm : arms) {
     steps.insert(state.jobs.queues()[arm].begin(), state.jobs.queues()[arm].end());
   }
-  for (const StepId step : steps) {
-    Record& record = state.jobs.at(step);
+  for (const StepId id : steps) {
+    Step& step = state.jobs.at(id);
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
     };
-    const auto wait = operator_wait(state, record.job);
-    const bool waited = std::ranges::any_of(record.job.waits_on, is_of_operator);
-    if (waited && wait) state.jobs.set_wait(record, *wait);
-    if (waited && !wait) state.jobs.set_waits(record, {});
-    if (waited || wait) state.jobs.explain(record);
+    const auto wait = operator_wait(state, step);
+    const bool waited = std::ranges::any_of(step.waits_on, is_of_operator);
+    if (waited && wait) state.jobs.set_wait(step, *wait);
+    if (waited && !wait) state.jobs.set_waits(step, {});
+    if (waited || wait) state.jobs.explain(step);
   }
 }
 

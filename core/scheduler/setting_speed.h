@@ -6,7 +6,7 @@ namespace armloom {
 
 // Measures the pace of a job in motion, and its time until an overrun, from now on. `rested`: the
 // time until now is no standstill.
-void renew_clocks(const State& state, Job& job, bool rested);
+void renew_clocks(const State& state, Step& step, bool rested);
 
 // Sets the speed override. Passing orders stay, because they are about progress. What depends on
 // time is renewed: times of overrun, paces, predictions and scheduled starts. Under policies

@@ -22,9 +22,9 @@ void Trial::step(const Input& input) {
       approaches_.push_back(sent->job);
     }
   }
-  const Job* job = scheduler_.find(job_);
-  if (job == nullptr) return;  // of those that come before it
-  if (!job->waits_on.empty()) waits_ = job->waits_on;
+  const Step* own = scheduler_.find(job_);
+  if (own == nullptr) return;  // of those that come before it
+  if (!own->waits_on.empty()) waits_ = own->waits_on;
   const auto wake = scheduler_.wakes_at();
   if (!is_in_ring() || !wake || *wake - now_ > kAfterRingWasTold) return;
   now_ = *wake;  // its ring has been told
@@ -33,14 +33,14 @@ void Trial::step(const Input& input) {
 
 // What becomes of the rings of others is no matter of this instant.
 bool Trial::is_in_ring() const {
-  const auto in_ring = [&](JobId id) { return !scheduler_.find(id)->ring.empty(); };
+  const auto in_ring = [&](JobId id) { return !scheduler_.find(id)->job->ring.empty(); };
   return in_ring(job_) || std::ranges::any_of(approaches_, in_ring);
 }
 
 // Its arms go to where it begins.
 bool Trial::is_on_its_way() const {
   const auto goes = [this](JobId id) {
-    const Job& approach = *scheduler_.find(id);
+    const Step& approach = *scheduler_.find(id);
     return approach.has_authority() || approach.state() == JobState::succeeded;
   };
   return !approaches_.empty() && std::ranges::all_of(approaches_, goes);
@@ -87,7 +87,7 @@ void Trial::answer(Verdict verdict) {
 Duration Trial::approach_ends() const {
   Duration last{};
   for (JobId id : approaches_) {
-    const Job& approach = *scheduler_.find(id);
+    const Step& approach = *scheduler_.find(id);
     if (!approach.times.scheduled_at) continue;
     last = std::max(
         last, *approach.times.scheduled_at - now_ + scheduler_.time_for(*approach.trajectory));
@@ -100,7 +100,7 @@ std::vector<Wait> Trial::waits() const {
   std::vector<Wait> waits;
   for (const Wait& wait : waits_) {
     const bool is_own = wait.job && std::ranges::find(approaches_, *wait.job) != approaches_.end();
-    const Job* approach = is_own ? scheduler_.find(*wait.job) : nullptr;
+    const Step* approach = is_own ? scheduler_.find(*wait.job) : nullptr;
     if (approach != nullptr && !approach->waits_on.empty()) {
       waits.insert(waits.end(), approach->waits_on.begin(), approach->waits_on.end());
     } else {
@@ -111,23 +111,23 @@ std::vector<Wait> Trial::waits() const {
 }
 
 Trial::Outcome Trial::outcome() const {
-  const Job& job = *scheduler_.find(job_);
+  const Step& step = *scheduler_.find(job_);
   Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
-  outcome.job = job;
+  outcome.step = step;
   if (is_on_its_way()) outcome.approach = approach_ends();
-  if (job.has_authority() || is_on_its_way()) {
+  if (step.has_authority() || is_on_its_way()) {
     outcome.kind = Verdict::Kind::free;
-    outcome.waits = job.waits_on;
-    const bool is_itself = job.has_authority();
-    const Duration begins = is_itself ? *job.times.scheduled_at - now_ : approach_ends();
+    outcome.waits = step.waits_on;
+    const bool is_itself = step.has_authority();
+    const Duration begins = is_itself ? *step.times.scheduled_at - now_ : approach_ends();
     outcome.starts_in = std::max(Duration{}, begins);
     if (last_) outcome.clearance_bound = last_->clearance_bound;
     return outcome;
   }
   outcome.starts_in = by_clock_;
   outcome.waits = waits();
-  if (job.has_ended()) outcome.waits.clear();
-  if (job.has_ended() && last_) {
+  if (step.has_ended()) outcome.waits.clear();
+  if (step.has_ended() && last_) {
     for (const Conflict& conflict : last_->conflicts) outcome.waits.push_back(wait_for(conflict));
   }
   if (last_ && last_->kind == Verdict::Kind::undecided) outcome.kind = Verdict::Kind::undecided;

@@ -46,7 +46,7 @@ class Trial {
     std::uint64_t evaluations = 0;  // of all questions about the job
     // If its arms are moved to its start: time until they are there.
     std::optional<Duration> approach = {};
-    Job job = {.id = JobId{0}, .trajectory = nullptr};  // its final state in the trial
+    std::optional<Step> step = {};  // of the job: its final state in the trial
   };
   // Returns the outcome. Precondition: next() and next_plan() return nullopt. If the arms must
   // first be moved to the job's start, the job may not be admitted together with that motion. The

@@ -10,18 +10,18 @@ void put_under_way(State& state, const std::vector<Motion>& motions) {
   std::vector<CoordinatedMotion> admitted;
   for (const Motion& motion : motions) {
     const Submit job{.job = motion.step.job, .trajectory = motion.trajectory};
-    add(state, record_of(state, job));
+    add(state, step_of(state, job));
   }
   state.round = state.policy->next_round(state);
   for (const Motion& motion : motions) {
-    Record& record = state.jobs.at(motion.step);
-    record.job.progress = motion.progress;
+    Step& step = state.jobs.at(motion.step);
+    step.progress = motion.progress;
     const bool has_moved = motion.progress > Duration{};
-    if (has_moved) record.job.note_start(state.now);
-    enter(state, record, Admitted{});
-    enter(state, record,
+    if (has_moved) step.note_start(state.now);
+    enter(state, step, Admitted{});
+    enter(state, step,
           Moving{.overrun_at = TimePoint::max(), .moved_at = state.now, .is_under_way = has_moved});
-    admitted.push_back(as_candidate(state, record.job));
+    admitted.push_back(as_candidate(state, step));
   }
   state.graph.admit(admitted, PassingOrders{});
 }

@@ -15,7 +15,7 @@ constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
 }  // namespace
 
-std::vector<Duration> work_behind(const State& state, const std::vector<const Job*>& in_front) {
+std::vector<Duration> work_behind(const State& state, const std::vector<const Step*>& in_front) {
   std::vector<Duration> work = state.jobs.queues().work_but(in_front);
   for (std::uint32_t arm = 0; arm < work.size(); ++arm) {
     work[arm] = paced(work[arm], state.speed.pace({ArmId{arm}}));
@@ -24,20 +24,19 @@ std::vector<Duration> work_behind(const State& state, const std::vector<const Jo
 }
 
 void prepare_choice(State& state, const std::vector<StepId>& steps) {
-  std::vector<const Job*> in_front;
-  for (StepId step : steps) in_front.push_back(&state.jobs.at(step).job);
+  std::vector<const Step*> in_front;
+  for (StepId step : steps) in_front.push_back(&state.jobs.at(step));
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Record& record = state.jobs.at(motion.step);
+    const Step& step = state.jobs.at(motion.step);
     const bool weighs = state.policy->weighs_again();
-    const Duration stands = weighs ? stood_for(*state.cell, record.job, state.now) : Duration{};
-    const bool is_aged = state.has_aged(record);
+    const Duration stands = weighs ? stood_for(*state.cell, step, state.now) : Duration{};
+    const bool is_aged = state.has_aged(step);
     const double planned = state.speed.pace(motion.arms);
     state.graph.set_outlook(
-        motion.step,
-        {.keeps_its_place = is_aged && stands <= Duration{},
-         .stands_for = stands,
-         .pace = weighs ? pace_of(*state.cell, record.job, planned, state.now) : planned});
-    in_front.push_back(&record.job);
+        motion.step, {.keeps_its_place = is_aged && stands <= Duration{},
+                      .stands_for = stands,
+                      .pace = weighs ? pace_of(*state.cell, step, planned, state.now) : planned});
+    in_front.push_back(&step);
   }
   state.graph.set_work_behind(work_behind(state, in_front));
 }
@@ -63,7 +62,7 @@ void weigh_again(State& state) {
 // waits for it: that is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
   if (!state.policy->weighs_again()) return std::nullopt;
-  const auto job_of = [&](StepId step) -> const Job& { return state.jobs.at(step).job; };
+  const auto job_of = [&](StepId step) -> const Step& { return state.jobs.at(step); };
   const bool moves = std::ranges::any_of(state.graph.motions(), [&](const auto& motion) {
     const auto* moving = job_of(motion.step).template in<Moving>();
     return moving != nullptr && !moving->pause;

@@ -21,7 +21,7 @@ void weigh_again(State& state);
 // Returns for each arm (ArmId) the predicted time of its jobs except these, at the present speed
 // override.
 [[nodiscard]] std::vector<Duration> work_behind(const State& state,
-                                                const std::vector<const Job*>& in_front);
+                                                const std::vector<const Step*>& in_front);
 
 // Updates the precedence graph before orders are chosen for the admitted motions and for `steps`.
 // Sets the work behind all of these, predicted rests and paces, and which motions may not be

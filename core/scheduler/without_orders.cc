@@ -21,10 +21,10 @@ void compare_again(State& state) {
   if (!has_no_orders(state)) return;
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Record& record = state.jobs.at(id);
-    record.asking.is_in_question = true;
-    const bool is_kept = record.job.in<Admitted>() != nullptr && operator_wait(state, record.job);
-    if (is_kept) withdraw(state, record, {});
+    Step& step = state.jobs.at(id);
+    step.asking.is_in_question = true;
+    const bool is_kept = step.in<Admitted>() != nullptr && operator_wait(state, step);
+    if (is_kept) withdraw(state, step, {});
   }
   ++state.version;
 }
@@ -34,9 +34,9 @@ void see_standing(State& state) {
   bool is_news = false;
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
-    Job& job = state.jobs.at(id).job;
-    auto* moving = std::get_if<Moving>(&job.phase);
-    if (moving == nullptr || moving->was_compared || !is_standing(*state.cell, job, state.now)) {
+    Step& step = state.jobs.at(id);
+    auto* moving = std::get_if<Moving>(&step.phase);
+    if (moving == nullptr || moving->was_compared || !is_standing(*state.cell, step, state.now)) {
       continue;
     }
     moving->was_compared = is_news = true;
@@ -48,11 +48,11 @@ std::optional<TimePoint> stands_next(const State& state) {
   if (!has_no_orders(state)) return std::nullopt;
   std::optional<TimePoint> next;
   for (JobId id : state.jobs.past_queue()) {
-    const Job& job = state.jobs.at(id).job;
-    const auto* moving = job.in<Moving>();
+    const Step& step = state.jobs.at(id);
+    const auto* moving = step.in<Moving>();
     if (moving == nullptr || moving->was_compared) continue;
     const TimePoint stands =
-        moving->moved_at + promises_of(*state.cell, job.trajectory->arms()).stands_from();
+        moving->moved_at + promises_of(*state.cell, step.trajectory->arms()).stands_from();
     next = next ? std::min(*next, stands) : stands;
   }
   return next;

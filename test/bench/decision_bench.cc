@@ -169,7 +169,7 @@ class Hall {
   void run(JobId job) { step(MotionReport{only_step(job), MotionReport::Kind::progressed, 1ms}); }
   void withdraw(JobId job) {
     step(Cancel{job});
-    const Job& canceled = *scheduler_.find(job);
+    const Step& canceled = *scheduler_.find(job);
     if (!is_terminal(canceled.state())) {  // its arm already had the motion
       step(MotionReport{only_step(job), MotionReport::Kind::stopped, Duration{},
                         canceled.trajectory->start()});

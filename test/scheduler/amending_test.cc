@@ -30,7 +30,7 @@ TEST(Amending, RaisedPriorityOvertakesAnOpenQuestion) {
   bench.finished(bench.runs, at(1s));
   ASSERT_EQ(bench.candidate(), bench.earlier);
   bench.step(Amend{bench.later, {.priority = 5}}, at(1001ms));
-  EXPECT_EQ(bench.job(bench.later).terms.priority, 5);
+  EXPECT_EQ(bench.job(bench.later).job->terms.priority, 5);
   bench.answer_free(at(1002ms));
   EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is discarded";
   ASSERT_TRUE(bench.question);
@@ -66,12 +66,12 @@ TEST(Amending, TimeoutRunsFromTheFirstConflict) {
 TEST(Amending, KeepsTermsThatAreNotNamed) {
   TwoWait bench;
   bench.step(Amend{bench.earlier, {.priority = 7}}, at(1s));
-  EXPECT_EQ(bench.job(bench.earlier).terms.backlog_timeout, 10s);
+  EXPECT_EQ(bench.job(bench.earlier).job->terms.backlog_timeout, 10s);
   bench.step(Amend{bench.earlier, {.backlog_timeout = 20s}}, at(1s));
-  EXPECT_EQ(bench.job(bench.earlier).terms.priority, 7);
-  EXPECT_EQ(bench.job(bench.earlier).terms.on_timeout, OnTimeout::abort);
+  EXPECT_EQ(bench.job(bench.earlier).job->terms.priority, 7);
+  EXPECT_EQ(bench.job(bench.earlier).job->terms.on_timeout, OnTimeout::abort);
   bench.step(Amend{bench.earlier, {.on_timeout = OnTimeout::replan}}, at(1s));
-  EXPECT_EQ(bench.job(bench.earlier).terms.on_timeout, OnTimeout::replan);
+  EXPECT_EQ(bench.job(bench.earlier).job->terms.on_timeout, OnTimeout::replan);
 }
 
 TEST(Amending, IgnoresEndedAndUnknownJobs) {
@@ -82,7 +82,7 @@ TEST(Amending, IgnoresEndedAndUnknownJobs) {
   const Version version = bench.question->version;
   bench.step(Amend{bench.later, {.priority = 5}}, at(1s));
   bench.step(Amend{JobId{77}, {.priority = 5}}, at(1s));
-  EXPECT_EQ(bench.job(bench.later).terms.priority, 0);
+  EXPECT_EQ(bench.job(bench.later).job->terms.priority, 0);
   bench.answer_free(at(2s));
   EXPECT_EQ(bench.state(bench.earlier), JobState::scheduled)
       << "the answer on " << version << " still applies";

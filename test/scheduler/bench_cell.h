@@ -75,8 +75,8 @@ class Bench {
       if (auto* m = std::get_if<YieldMove>(&effect)) asides.push_back(*m);
       if (auto* r = std::get_if<Release>(&effect)) released.push_back(r->step.job);
       if (auto* c = std::get_if<JobChanged>(&effect)) {
-        const Job& job = *scheduler.find(c->job);
-        if (job.has_ended()) ++terminal_events[c->job];
+        const Step& step = *scheduler.find(c->job);
+        if (step.has_ended()) ++terminal_events[c->job];
       }
     }
     EXPECT_TRUE(scheduler.is_acyclic());
@@ -156,7 +156,7 @@ class Bench {
 
   [[nodiscard]] JobId next_id() const { return scheduler.next_job(); }
   JobState state(JobId job) const { return scheduler.find(job)->state(); }
-  const Job& job(JobId id) const { return *scheduler.find(id); }
+  const Step& job(JobId id) const { return *scheduler.find(id); }
   Duration authority(JobId id) const {
     Duration told{};
     for (const Dispatch& d : dispatched)

@@ -78,8 +78,8 @@ TEST_F(Blockage, FailsOneJobOfEachLongQueueAndTheRestExpires) {
   for (int i = 0; i < 3; ++i) jobs.push_back(bench.submit(goal(i)));
   bench.run_until(at(10s));
   EXPECT_EQ(failed(), 2);
-  EXPECT_FALSE(bench.job(jobs[1]).ring.empty());
-  EXPECT_FALSE(bench.job(jobs[4]).ring.empty());
+  EXPECT_FALSE(bench.job(jobs[1]).job->ring.empty());
+  EXPECT_FALSE(bench.job(jobs[4]).job->ring.empty());
   bench.run();
   EXPECT_EQ(failed(), 6);
   EXPECT_EQ(std::ranges::count_if(
@@ -99,7 +99,7 @@ TEST(DeadlockRule, WaitForCapacityIsPartOfTheCycle) {
   bench.step(Resume{{ArmId{0}}}, at(1s));
   bench.answer_conflict(at(1001ms), Conflict::With::rest, {}, ArmId{1});
   EXPECT_EQ(bench.job(b).waits_on.front().kind, Wait::Kind::capacity);
-  EXPECT_THAT(bench.job(a).ring, ::testing::ElementsAre(a, b));
+  EXPECT_THAT(bench.job(a).job->ring, ::testing::ElementsAre(a, b));
   bench.step(Wake{}, at(1002ms));
   EXPECT_EQ(bench.job(b).reason(), Reason::deadlock);
 }

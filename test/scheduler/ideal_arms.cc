@@ -221,7 +221,7 @@ void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
 
 void IdealArms::heard(const Effect& effect) {
   if (const auto* aside = std::get_if<YieldMove>(&effect))
-    after_[aside->job] = job(aside->job).after;
+    after_[aside->job] = job(aside->job).job->after;
   if (const auto* dispatch = std::get_if<Dispatch>(&effect)) on(*dispatch);
   if (const auto* grant = std::get_if<Grant>(&effect)) on(*grant);
   if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);
@@ -235,30 +235,30 @@ void IdealArms::heard(const Effect& effect) {
 }
 
 void IdealArms::on(const Dispatch& dispatch) {
-  const Job& job = this->job(dispatch.step.job);
-  ++times_dispatched_[job.id];
-  for (const ArmId arm : job.trajectory->arms()) {
+  const Step& step = this->job(dispatch.step.job);
+  ++times_dispatched_[step.id.job];
+  for (const ArmId arm : step.trajectory->arms()) {
     EXPECT_FALSE(scheduler.stopped(arm)) << "a stopped arm is sent";
     for (const Moving& other : moving_) {
       const auto& arms = other.motion->arms();
       EXPECT_EQ(std::ranges::find(arms, arm), arms.end()) << "it moves already";
     }
-    EXPECT_NEAR(place_of(*job.trajectory, arm, dispatch.from_progress), q_[arm.index()], 1e-6)
+    EXPECT_NEAR(place_of(*step.trajectory, arm, dispatch.from_progress), q_[arm.index()], 1e-6)
         << "it does not stand there";
     const auto& given = of_arm_[arm];
-    if (std::ranges::find(given, job.id) == given.end()) continue;
+    if (std::ranges::find(given, step.id.job) == given.end()) continue;
     for (const JobId before : given) {
-      if (before == job.id) break;
+      if (before == step.id.job) break;
       EXPECT_TRUE(is_terminal(state(before))) << "out of the order of its arm";
     }
   }
-  for (const JobId before : after_[job.id]) {
+  for (const JobId before : after_[step.id.job]) {
     EXPECT_EQ(state(before), JobState::succeeded) << "before what it comes after";
   }
-  Habits habits = habits_of_(job.id);
+  Habits habits = habits_of_(step.id.job);
   if (dispatch.from_progress > Duration{}) habits.stalls_for = {};
-  moving_.push_back({.job = job.id,
-                     .motion = job.trajectory,
+  moving_.push_back({.job = step.id.job,
+                     .motion = step.trajectory,
                      .habits = habits,
                      .s = dispatch.from_progress,
                      .reported = dispatch.from_progress,
@@ -267,7 +267,7 @@ void IdealArms::on(const Dispatch& dispatch) {
                      .moved_at = now_,
                      .report_at = now_});
   EXPECT_GE(dispatch.authority, dispatch.from_progress);
-  EXPECT_LE(dispatch.authority, job.trajectory->duration());
+  EXPECT_LE(dispatch.authority, step.trajectory->duration());
   plan_report(moving_.back());
 }
 

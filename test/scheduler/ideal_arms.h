@@ -96,7 +96,7 @@ class IdealArms : public Bench {
   void come_to_rest(const Moving& arm, MotionReport::Kind kind);
   void check();
   void check_moving(const Moving& arm) const;
-  void check_phase(const Job& job) const;
+  void check_phase(const Step& step) const;
   void check_orders() const;
   void check_authority() const;
   void check_explained() const;

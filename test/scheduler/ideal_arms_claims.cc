@@ -14,44 +14,46 @@ void IdealArms::check() {
 }
 
 void IdealArms::check_moving(const Moving& arm) const {
-  const Job& job = this->job(arm.job);
-  const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
-  EXPECT_FALSE(is_terminal(job.state())) << what << " moves on";
-  EXPECT_TRUE(job.state() == JobState::scheduled || job.state() == JobState::running ||
-              job.stopping())
+  const Step& step = this->job(arm.job);
+  const std::string what =
+      "job " + std::to_string(arm.job.value()) + ", " + to_string(step.state());
+  EXPECT_FALSE(is_terminal(step.state())) << what << " moves on";
+  EXPECT_TRUE(step.state() == JobState::scheduled || step.state() == JobState::running ||
+              step.stopping())
       << what << " moves";
-  EXPECT_EQ(job.progress, arm.reported) << what;
+  EXPECT_EQ(step.progress, arm.reported) << what;
   EXPECT_LE(arm.reported, arm.s) << what;
   EXPECT_LE(arm.s, arm.authority) << what;
   EXPECT_LE(arm.authority, arm.motion->duration()) << what;
   for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
 }
 
-void IdealArms::check_phase(const Job& job) const {
-  const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state());
-  const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
-  EXPECT_FALSE(job.ended_at() || job.reason()) << what << " has ended";
-  EXPECT_TRUE(!admitted || job.times.scheduled_at) << what;
-  EXPECT_TRUE(job.state() != JobState::backlogged || job.times.backlogged_at) << what;
-  EXPECT_TRUE(job.state() != JobState::running || moves(job.id)) << what << " does not move";
-  EXPECT_TRUE(job.state() != JobState::paused || job.stopping() || !moves(job.id)) << what;
-  EXPECT_TRUE(!job.stopping() || moves(job.id)) << what << " brakes";
-  const bool on_its_way = job.state() == JobState::running || job.state() == JobState::paused;
-  EXPECT_TRUE(!on_its_way || job.times.started_at) << what << " has not begun";
-  const bool in_queue = job.state() == JobState::queued || job.state() == JobState::backlogged;
-  EXPECT_FALSE(in_queue && (job.times.started_at || job.times.scheduled_at || job.pausing()))
+void IdealArms::check_phase(const Step& step) const {
+  const std::string what =
+      "job " + std::to_string(step.id.job.value()) + ", " + to_string(step.state());
+  const bool admitted = step.state() == JobState::scheduled || step.state() == JobState::running;
+  EXPECT_FALSE(step.ended_at() || step.reason()) << what << " has ended";
+  EXPECT_TRUE(!admitted || step.times.scheduled_at) << what;
+  EXPECT_TRUE(step.state() != JobState::backlogged || step.times.backlogged_at) << what;
+  EXPECT_TRUE(step.state() != JobState::running || moves(step.id.job)) << what << " does not move";
+  EXPECT_TRUE(step.state() != JobState::paused || step.stopping() || !moves(step.id.job)) << what;
+  EXPECT_TRUE(!step.stopping() || moves(step.id.job)) << what << " brakes";
+  const bool on_its_way = step.state() == JobState::running || step.state() == JobState::paused;
+  EXPECT_TRUE(!on_its_way || step.times.started_at) << what << " has not begun";
+  const bool in_queue = step.state() == JobState::queued || step.state() == JobState::backlogged;
+  EXPECT_FALSE(in_queue && (step.times.started_at || step.times.scheduled_at || step.pausing()))
       << what;
 }
 
 // Checks that no admitted job at rest waits for itself, directly or through other jobs.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
-    const Job& job = this->job(id);
-    const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
+    const Step& step = this->job(id);
+    const bool admitted = step.state() == JobState::scheduled || step.state() == JobState::running;
     const auto moving = std::ranges::find(moving_, id, &Moving::job);
     const bool may_go_on = moving != moving_.end() && moving->authority > moving->reported;
     const bool stands = admitted && !may_go_on;
-    return stands && !job.waits_on.empty() ? job.waits_on.front().job : std::nullopt;
+    return stands && !step.waits_on.empty() ? step.waits_on.front().job : std::nullopt;
   };
   const std::vector<JobId> active = scheduler.active();
   for (const JobId id : active) {
@@ -105,10 +107,11 @@ void IdealArms::check_explained() const {
   }
   if (question) return;  // the job may be about to start
   for (const JobId id : scheduler.active()) {
-    const Job& job = this->job(id);
-    const bool stands = job.pausing() || !moves(id);
-    EXPECT_FALSE(stands && job.waits_on.empty())
-        << "job " << id.value() << " (" << to_string(job.state()) << ") does not say why it stands";
+    const Step& step = this->job(id);
+    const bool stands = step.pausing() || !moves(id);
+    EXPECT_FALSE(stands && step.waits_on.empty())
+        << "job " << id.value() << " (" << to_string(step.state())
+        << ") does not say why it stands";
   }
 }
 

@@ -16,10 +16,9 @@ TEST(JobBook, SortsByTurnWithinEachArmQueue) {
   const CellPtr cell = one_joint_arms(1);
   State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});
   const auto add_job = [&](std::optional<JobId> before) {
-    Record record = record_of(state, {state.jobs.next_id(), move({0}, 0.0, 0.0, 1s)});
-    record.errand.before = before;
-    const JobId id = record.job.id;
-    add(state, std::move(record));
+    const JobId id = state.jobs.next_id();
+    add(state, step_of(state, {id, move({0}, 0.0, 0.0, 1s)},
+                       Errand{.on_behalf_of = id, .before = before}));
     return id;
   };
   const JobId ahead = add_job({}), last = add_job({}), errand = add_job(last);

@@ -26,7 +26,7 @@ class RandomWorlds : public ::testing::TestWithParam<std::string> {
       world.run();
       IdealArms& bench = world.bench();
       for (const JobId job : world.jobs) {
-        const Job& at_end = bench.job(job);
+        const Step& at_end = bench.job(job);
         ++ended[at_end.state()];
         EXPECT_TRUE(is_terminal(at_end.state()))
             << "job " << job.value() << " is " << to_string(at_end.state())

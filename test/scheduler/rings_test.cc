@@ -22,8 +22,8 @@ struct Swap : Bench {
 
 TEST(Deadlock, IsReportedBeforeAJobFails) {
   Swap bench;
-  EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.b));
-  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a));
+  EXPECT_THAT(bench.job(bench.a).job->ring, ElementsAre(bench.a, bench.b));
+  EXPECT_THAT(bench.job(bench.b).job->ring, ElementsAre(bench.b, bench.a));
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
   ASSERT_TRUE(bench.wake_at);
@@ -35,14 +35,14 @@ TEST(Deadlock, FailsTheLastJobAndTheOtherWaitsForItsArm) {
   bench.step(Wake{}, at(3ms));
   EXPECT_EQ(bench.state(bench.b), JobState::failed);
   EXPECT_EQ(bench.job(bench.b).reason(), Reason::deadlock);
-  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a)) << "kept as the reason";
+  EXPECT_THAT(bench.job(bench.b).job->ring, ElementsAre(bench.b, bench.a)) << "kept as the reason";
   EXPECT_EQ(bench.terminal_events[bench.b], 1);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.a).job->ring, IsEmpty());
   ASSERT_TRUE(bench.question);
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{1});
   EXPECT_EQ(bench.job(bench.a).waits_on.front().kind, Wait::Kind::arm);
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty()) << "an idle arm closes no cycle";
+  EXPECT_THAT(bench.job(bench.a).job->ring, IsEmpty()) << "an idle arm closes no cycle";
   bench.step(Wake{}, at(1s));
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
 }
@@ -83,9 +83,9 @@ TEST(Deadlock, IncludesJobsPausedOnTheirPaths) {
   bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(1s));
   ASSERT_EQ(bench.question->candidates.size(), 1U);
   bench.answer_conflict(at(1002ms), Conflict::With::rest, {}, ArmId{1});
-  EXPECT_THAT(bench.job(a).ring, IsEmpty()) << "the other job may be able to continue";
+  EXPECT_THAT(bench.job(a).job->ring, IsEmpty()) << "the other job may be able to continue";
   bench.answer_conflict(at(1003ms), Conflict::With::rest, {}, ArmId{0});
-  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b));
+  EXPECT_THAT(bench.job(a).job->ring, ElementsAre(a, b));
   bench.step(Wake{}, at(1004ms));
   EXPECT_EQ(bench.job(b).reason(), Reason::deadlock);
   bench.answer_free(at(1005ms));
@@ -95,16 +95,16 @@ TEST(Deadlock, IncludesJobsPausedOnTheirPaths) {
 TEST(Deadlock, CanceledJobBreaksTheCycle) {
   Swap bench;
   bench.step(Cancel{bench.a}, at(3ms));
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.a).job->ring, IsEmpty());
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
-  EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.b).job->ring, IsEmpty());
   EXPECT_FALSE(bench.job(bench.b).reason());
 }
 
 TEST(Deadlock, IsCheckedAgainOnASceneChangeBeforeAJobFails) {
   Swap bench;
   bench.step(SceneChanged{{ArmId{0}, ArmId{1}}}, at(3ms));
-  EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.b).job->ring, IsEmpty());
   bench.answer_free(at(4ms));
   EXPECT_EQ(bench.state(bench.a), JobState::scheduled);
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
@@ -118,12 +118,12 @@ TEST(Deadlock, IncludesThreeJobsWhileOthersMove) {
   bench.answer_conflict(at(3ms), Conflict::With::rest, {}, ArmId{1});
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(4ms));
   bench.answer_conflict(at(5ms), Conflict::With::rest, {}, ArmId{2});
-  EXPECT_THAT(bench.job(b).ring, IsEmpty());
+  EXPECT_THAT(bench.job(b).job->ring, IsEmpty());
   const JobId c = bench.submit(move({2}, 0, 1, 2s), at(6ms));
   bench.answer_conflict(at(7ms), Conflict::With::rest, {}, ArmId{0});
-  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b, c));
-  EXPECT_THAT(bench.job(b).ring, ElementsAre(b, c, a));
-  EXPECT_THAT(bench.job(c).ring, ElementsAre(c, a, b));
+  EXPECT_THAT(bench.job(a).job->ring, ElementsAre(a, b, c));
+  EXPECT_THAT(bench.job(b).job->ring, ElementsAre(b, c, a));
+  EXPECT_THAT(bench.job(c).job->ring, ElementsAre(c, a, b));
   bench.progressed(moves, 0ms, at(8ms));
   bench.step(Wake{}, at(9ms));
   EXPECT_EQ(bench.state(c), JobState::failed);
@@ -138,7 +138,7 @@ TEST(Deadlock, MayIncludeAPredecessor) {
   bench.step(
       Submit{.job = JobId{2}, .trajectory = move({1}, 0, 1, 2s), .terms = {0, 60s}, .after = {a}},
       at(2ms));
-  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, JobId{2}));
+  EXPECT_THAT(bench.job(a).job->ring, ElementsAre(a, JobId{2}));
   bench.step(Wake{}, at(3ms));
   EXPECT_EQ(bench.job(JobId{2}).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(a), JobState::backlogged);
@@ -152,8 +152,8 @@ TEST(Deadlock, DoesNotIncludeJobsThatWaitForAMotion) {
   bench.answer_conflict(at(3ms), Conflict::With::rest, {}, ArmId{1});
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(4ms));
   bench.answer_conflict(at(5ms), Conflict::With::motion, runs, ArmId{2});
-  EXPECT_THAT(bench.job(a).ring, IsEmpty());
-  EXPECT_THAT(bench.job(b).ring, IsEmpty());
+  EXPECT_THAT(bench.job(a).job->ring, IsEmpty());
+  EXPECT_THAT(bench.job(b).job->ring, IsEmpty());
 }
 
 TEST(Deadlock, DoesNotIncludeAStoppedArm) {
@@ -163,7 +163,7 @@ TEST(Deadlock, DoesNotIncludeAStoppedArm) {
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(1ms));
   bench.answer_conflict(at(2ms), Conflict::With::rest, {}, ArmId{1});
   EXPECT_FALSE(bench.question);
-  EXPECT_THAT(bench.job(a).ring, IsEmpty());
+  EXPECT_THAT(bench.job(a).job->ring, IsEmpty());
   EXPECT_EQ(bench.job(b).waits_on.front().kind, Wait::Kind::stop);
 }
 

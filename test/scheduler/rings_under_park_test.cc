@@ -62,12 +62,12 @@ TEST(DeadlockUnderPark, RetreatAndReturnAreServerInitiatedJobs) {
   EXPECT_TRUE(bench.asides[1].returns);
   EXPECT_NEAR(bench.job(bench.way).trajectory->goal()[0], -1.0, 1e-9);
   EXPECT_NEAR(bench.job(bench.back).trajectory->goal()[0], 0.0, 1e-9);
-  EXPECT_TRUE(bench.job(bench.way).system_job);
+  EXPECT_TRUE(bench.job(bench.way).job->system_job);
 }
 
 TEST(DeadlockUnderPark, NoJobFailsWhileARetreatIsChecked) {
   Parking bench;
-  EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.b));
+  EXPECT_THAT(bench.job(bench.a).job->ring, ElementsAre(bench.a, bench.b));
   for (const auto now : {3ms, 100ms, 5000ms}) bench.step(Wake{}, at(now));
   bench.answer_free(at(5001ms));
   for (const auto now : {5100ms, 9000ms}) bench.step(Wake{}, at(now));
@@ -103,8 +103,8 @@ TEST(DeadlockUnderPark, StoppedArmDoesNotRetreat) {
 TEST(DeadlockUnderPark, RetreatAndReturnComeBeforeTheJob) {
   Parking bench;
   bench.answer_way_and_passing();
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
-  EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.a).job->ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.b).job->ring, IsEmpty());
   ASSERT_FALSE(bench.job(bench.b).waits_on.empty());
   EXPECT_EQ(bench.job(bench.b).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(bench.b).waits_on.front().job, bench.back);
@@ -173,7 +173,7 @@ TEST(DeadlockUnderPark, CycleWithARetreatFailsOnlyTheRetreat) {
   bench.answer_way_and_passing();
   bench.answer_conflict(at(6ms), Conflict::With::rest, {},
                         ArmId{0});  // the retreat waits for a's arm
-  EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.way));
+  EXPECT_THAT(bench.job(bench.a).job->ring, ElementsAre(bench.a, bench.way));
   EXPECT_EQ(bench.asides.size(), 2u);
   bench.step(Wake{}, at(7ms));
   EXPECT_EQ(bench.job(bench.way).reason(), Reason::deadlock);
@@ -186,11 +186,11 @@ TEST(DeadlockUnderPark, ReturnInACycleNoLongerWaitsForTheBlockedJob) {
   Parking bench;
   bench.go_aside();
   bench.answer_conflict(at(2001ms), Conflict::With::rest, {}, ArmId{1});  // still in its way
-  EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.back));
+  EXPECT_THAT(bench.job(bench.a).job->ring, ElementsAre(bench.a, bench.back));
   bench.step(Wake{}, at(2002ms));
   EXPECT_FALSE(is_terminal(bench.state(bench.a)));
   EXPECT_FALSE(is_terminal(bench.state(bench.back)));
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
+  EXPECT_THAT(bench.job(bench.a).job->ring, IsEmpty());
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.question->candidates.front().step.job, bench.back);
 }
@@ -202,7 +202,7 @@ TEST(DeadlockUnderPark, CycleClosedAgainByTheReturnFailsTheBlockedJob) {
   bench.answer_conflict(at(2001ms), Conflict::With::rest, {}, ArmId{1});
   bench.step(Wake{}, at(2002ms));
   bench.answer_conflict(at(2003ms), Conflict::With::rest, {}, ArmId{0});
-  EXPECT_THAT(bench.job(bench.back).ring, ElementsAre(bench.back, bench.a));
+  EXPECT_THAT(bench.job(bench.back).job->ring, ElementsAre(bench.back, bench.a));
   bench.answer_conflict(at(2004ms), Conflict::With::scene);  // a's arm cannot retreat
   EXPECT_EQ(bench.job(bench.a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(bench.back), JobState::backlogged);
@@ -220,7 +220,7 @@ TEST(DeadlockUnderPark, RetreatThatAClientReliesOnIsKept) {
   const JobId way = bench.asides[0].job;
   const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
-  EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
+  EXPECT_THAT(bench.job(a).job->ring, ElementsAre(a, way));
   bench.answer_conflict(at(5ms), Conflict::With::scene);  // a's arm cannot retreat
   EXPECT_EQ(bench.job(a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(way), JobState::backlogged);

@@ -29,9 +29,9 @@ std::string text(const std::vector<Wait>& waits) {
 std::string told(const Scheduler& scheduler) {
   std::string text;
   for (const JobId id : scheduler.active()) {
-    const Job& job = *scheduler.find(id);
-    text += std::to_string(id.value()) + " " + to_string(job.state()) + " " +
-            std::to_string(job.progress.count()) + " " + armloom::text(job.waits_on) + "\n";
+    const Step& step = *scheduler.find(id);
+    text += std::to_string(id.value()) + " " + to_string(step.state()) + " " +
+            std::to_string(step.progress.count()) + " " + armloom::text(step.waits_on) + "\n";
   }
   return text;
 }
@@ -61,7 +61,7 @@ class Look {
 
   // Runs the step that resolves a deadlock.
   void settle_ring(JobId id) {
-    while (!bench().job(id).ring.empty() && bench().wake_at &&
+    while (!bench().job(id).job->ring.empty() && bench().wake_at &&
            *bench().wake_at <= bench().now() + kAfterRingWasTold) {
       bench().run_until(*bench().wake_at);
     }
@@ -105,26 +105,26 @@ class Look {
     return trial.outcome();
   }
 
-  void compare(const Trial::Outcome& says, const Job& job) {
+  void compare(const Trial::Outcome& says, const Step& step) {
     ++seen_.states;
-    const bool is_free = job.state() == JobState::scheduled || job.state() == JobState::running;
-    const std::string what = "job " + std::to_string(job.id.value()) + " at " +
+    const bool is_free = step.state() == JobState::scheduled || step.state() == JobState::running;
+    const std::string what = "job " + std::to_string(step.id.job.value()) + " at " +
                              std::to_string(to_seconds(bench().now().time_since_epoch())) +
                              " s, said to wait for " + text(says.waits) + ", is " +
-                             to_string(job.state()) + " and waits for " + text(job.waits_on);
+                             to_string(step.state()) + " and waits for " + text(step.waits_on);
     ASSERT_EQ(says.kind == Verdict::Kind::free, is_free) << what;
     if (is_free) {
-      ASSERT_EQ(says.starts_in, std::max(Duration{}, *job.times.scheduled_at - bench().now()))
+      ASSERT_EQ(says.starts_in, std::max(Duration{}, *step.times.scheduled_at - bench().now()))
           << what;
-      ASSERT_EQ(text(says.waits), text(job.waits_on)) << what;
+      ASSERT_EQ(text(says.waits), text(step.waits_on)) << what;
       ++(*says.starts_in > Duration{} ? seen_.free_later : seen_.free_now);
-    } else if (is_terminal(job.state())) {
+    } else if (is_terminal(step.state())) {
       ++seen_.fail;
-      ASSERT_EQ(says.job.state(), job.state()) << what;
-      ASSERT_EQ(says.job.reason(), job.reason()) << what;
+      ASSERT_EQ(says.step->state(), step.state()) << what;
+      ASSERT_EQ(says.step->reason(), step.reason()) << what;
     } else {
       ++seen_.wait;
-      ASSERT_EQ(text(says.waits), text(job.waits_on)) << what;
+      ASSERT_EQ(text(says.waits), text(step.waits_on)) << what;
     }
   }
 

@@ -172,7 +172,7 @@ FAULTS = {'server_store_test': [
 ], 'scheduler_test': [
     ('an arm that is resumed beside its path goes on', 'core/scheduler/scheduler.cc', 'for (ArmId arm : input.arms) rejoin(state, arm);', 'for (ArmId arm : input.arms) if (!FAULT) rejoin(state, arm);'),
     ('an arm that pauses beside its path goes on', 'core/scheduler/scheduler.cc', 'arms()) rejoin(state_, arm);', 'arms()) if (!FAULT) rejoin(state_, arm);'),
-    ('an arm ahead of its team counts as beside its path', 'core/scheduler/rejoining.cc', 'at < record.farthest;', '!FAULT && at < record.farthest;'),
+    ('an arm ahead of its team counts as beside its path', 'core/scheduler/rejoining.cc', 'at < step.farthest;', '!FAULT && at < step.farthest;'),
     ('certificates allow for one measurement of two', ERRORS, 'off_path + 2.0 * tracking_error', 'off_path + (FAULT ? 1.0 : 2.0) * tracking_error'),
 ], 'collision_test': [
     ('certificates take the error of another arm', ERRORS, 'all_ : by_arm_[arm.index()]', 'all_ : by_arm_[FAULT ? 0 : arm.index()]'),

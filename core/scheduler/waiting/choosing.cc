@@ -13,27 +13,27 @@ namespace armloom {
 namespace {
 
 // When the goal is reached, if its job goes as predicted, or behind those that wait on its arm.
-double arrival_of(const State& state, const Job& job, const Prediction& prediction) {
+double arrival_of(const State& state, const Step& step, const Prediction& prediction) {
   const auto& motions = state.graph.motions();
   if (prediction.ends.size() > motions.size()) return to_seconds(prediction.ends.back());
-  const ArmId arm = job.goal->way().goal.arm;
+  const ArmId arm = step.goal->way().goal.arm;
   Duration then{};
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const auto arms = state.jobs.at(motions[m].step).job.trajectory->arms();
+    const auto arms = state.jobs.at(motions[m].step).trajectory->arms();
     if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
   }
-  for (StepId step : state.jobs.queues()[arm]) {
-    const Job& before = state.jobs.at(step).job;
+  for (StepId id : state.jobs.queues()[arm]) {
+    const Step& before = state.jobs.at(id);
     if (before.is_waiting()) then += state.time_for(*before.trajectory);
-    if (step == job.step()) break;
+    if (id == step.id) break;
   }
   return to_seconds(then);
 }
 
 // Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
-double cost_of(const State& state, const Job& job, const Prediction& prediction) {
-  if (job.goal) return arrival_of(state, job, prediction);
-  std::vector<const Job*> in_front{&job};
+double cost_of(const State& state, const Step& step, const Prediction& prediction) {
+  if (step.goal) return arrival_of(state, step, prediction);
+  std::vector<const Step*> in_front{&step};
   std::vector<double> ends(state.cell->arms.size(), 0.0);
   const auto comes_to = [&](const Trajectory& trajectory, Duration end) {
     for (ArmId arm : trajectory.arms()) {
@@ -42,15 +42,16 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
   };
   const auto& motions = state.graph.motions();
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const Job& admitted = state.jobs.at(motions[m].step).job;
+    const Step& admitted = state.jobs.at(motions[m].step);
     comes_to(*admitted.trajectory, prediction.ends[m]);
     in_front.push_back(&admitted);
   }
   std::vector<Duration> behind = work_behind(state, in_front);
   if (prediction.ends.size() > motions.size()) {
-    comes_to(*job.trajectory, prediction.ends.back());
+    comes_to(*step.trajectory, prediction.ends.back());
   } else {
-    for (ArmId arm : job.trajectory->arms()) behind[arm.index()] += state.time_for(*job.trajectory);
+    for (ArmId arm : step.trajectory->arms())
+      behind[arm.index()] += state.time_for(*step.trajectory);
   }
   double last = 0.0, sum = 0.0;
   for (std::size_t arm = 0; arm < ends.size(); ++arm) {
@@ -69,8 +70,8 @@ PassingOrders orders_with(State& state, const std::vector<CoordinatedMotion>& ca
 // Nothing: it cannot go as things are.
 std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict) {
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
-  const Job& candidate = state.jobs.at(job).job;
-  prepare_choice(state, {candidate.step()});
+  const Step& candidate = state.jobs.at(job);
+  prepare_choice(state, {candidate.id});
   const PassingOrders orders =
       orders_with(state, {as_candidate(state, candidate)}, verdict.regions);
   if (!orders.blockers.empty()) return std::nullopt;
@@ -79,26 +80,26 @@ std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict)
 
 // It waits behind others of its arm: no less than if nothing met it.
 std::optional<double> cost_behind_others(State& state, JobId job) {
-  const Job& candidate = state.jobs.at(job).job;
-  prepare_choice(state, {candidate.step()});
+  const Step& candidate = state.jobs.at(job);
+  prepare_choice(state, {candidate.id});
   const PassingOrders orders = orders_with(state, {}, {});
   if (orders.prediction.ends.size() != state.graph.motions().size()) return std::nullopt;
   return cost_of(state, candidate, orders.prediction);
 }
 
-std::string refusal_of(const State& state, const Job& job, std::size_t alternative) {
-  if (!job.may_go_by(alternative)) return job.goal->ways[alternative].refusal.value_or("");
-  const ArmId arm = job.alternatives[alternative]->arms().front();
+std::string refusal_of(const State& state, const Step& step, std::size_t alternative) {
+  if (!step.may_go_by(alternative)) return step.goal->ways[alternative].refusal.value_or("");
+  const ArmId arm = step.alternatives[alternative]->arms().front();
   return state.arms.is_stopped(arm) ? "it is stopped" : "the arm will not be where the job begins";
 }
 
 // By which arms it cannot go as things stand: those of none of its options.
-std::vector<Choice::Without> without(const State& state, const Job& job,
+std::vector<Choice::Without> without(const State& state, const Step& step,
                                      const std::vector<Option>& options) {
   std::vector<Choice::Without> arms;
-  for (std::size_t k = 0; k < job.alternatives.size(); ++k) {
+  for (std::size_t k = 0; k < step.alternatives.size(); ++k) {
     if (std::ranges::find(options, k, &Option::alternative) != options.end()) continue;
-    arms.push_back({job.alternatives[k]->arms().front(), refusal_of(state, job, k)});
+    arms.push_back({step.alternatives[k]->arms().front(), refusal_of(state, step, k)});
   }
   return arms;
 }
@@ -163,35 +164,34 @@ std::optional<Verdict> Choosing::decide(State& state) {
 
 // Where no other arm can.
 void Choosing::note_only_arm(State& state) const {
-  Record& record = state.jobs.at(job());
-  if (options_.size() > 1 || record.job.alternatives.empty()) return;
-  Choice choice{.arms = record.job.trajectory->arms(),
-                .without = without(state, record.job, options_)};
-  const auto& before = record.job.choice;
+  Step& step = state.jobs.at(job());
+  if (options_.size() > 1 || step.alternatives.empty()) return;
+  Choice choice{.arms = step.trajectory->arms(), .without = without(state, step, options_)};
+  const auto& before = step.choice;
   if (before && before->arms == choice.arms) return;
-  record.job.choice = std::move(choice);
-  state.jobs.changed(record);
+  step.choice = std::move(choice);
+  state.jobs.changed(step);
 }
 
 void Choosing::note(State& state, std::size_t best) const {
-  Record& taker = state.jobs.at(options_[best].job);
+  Step& taker = state.jobs.at(options_[best].job);
   Choice choice;
   for (const Option& option : options_) {
-    if (taker.job.alternatives.empty()) {
+    if (taker.alternatives.empty()) {
       choice.jobs.push_back(option.job);
     } else {
-      choice.arms.push_back(taker.job.alternatives[option.alternative]->arms().front());
+      choice.arms.push_back(taker.alternatives[option.alternative]->arms().front());
     }
   }
-  if (const auto first = options_.front().job; first != taker.job.id) {
+  if (const auto first = options_.front().job; first != taker.id.job) {
     auto& overtaken_at = state.jobs.at(first).overtaken_at;
     if (!overtaken_at) overtaken_at = state.clock();
   }
   if (rated_[best].cost && rated_.front().cost) {
     choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);
   }
-  choice.without = without(state, taker.job, options_);
-  taker.job.choice = std::move(choice);
+  choice.without = without(state, taker, options_);
+  taker.choice = std::move(choice);
   state.jobs.changed(taker);
 }
 

@@ -23,25 +23,25 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
 // It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
 // admitted. Of an admitted one all others would have to have ended; and of one in whose place
 // another could go: which of them does is left open until one must.
-bool is_next(const State& state, const Record& record, ArmId arm) {
+bool is_next(const State& state, const Step& step, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
-  if (!queue.empty() && queue.front() == record.job.step()) return true;
-  const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.step());
+  if (!queue.empty() && queue.front() == step.id) return true;
+  const bool ahead = step.is_waiting() && state.lanes.follows_on(step.id);
   const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
-    if (queue[place] == record.job.step()) {
-      return !holds_one_ahead(state, record) && !others_may_take_its_turn(state, record);
+    if (queue[place] == step.id) {
+      return !holds_one_ahead(state, step) && !others_may_take_its_turn(state, step);
     }
-    if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
+    if (!state.jobs.at(queue[place]).is_admitted()) return false;
   }
   return false;
 }
 
 // Which job stands before it, on the first of its arms where one does and has to go first.
-Closed behind(const Turns& turns, const Record& record) {
-  for (ArmId arm : record.job.trajectory->arms()) {
-    if (is_next(turns.state(), record, arm)) continue;
-    return order(turns.state().jobs.queues().before(record.job, arm)->job, arm);
+Closed behind(const Turns& turns, const Step& step) {
+  for (ArmId arm : step.trajectory->arms()) {
+    if (is_next(turns.state(), step, arm)) continue;
+    return order(turns.state().jobs.queues().before(step, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -56,143 +56,140 @@ void add_behind(const State& state, Edges& edges) {
 }
 
 // The same for this job and those before it on its arms that `told` does not have yet.
-void add_behind(const State& state, const Record& record, Edges& edges,
+void add_behind(const State& state, const Step& step, Edges& edges,
                 std::set<std::pair<ArmId, StepId>>& told) {
-  for (ArmId arm : record.job.trajectory->arms()) {
+  for (ArmId arm : step.trajectory->arms()) {
     const auto& queue = state.jobs.queues()[arm];
-    if (told.contains({arm, record.job.step()})) continue;
-    for (auto step = std::ranges::find(queue, record.job.step()); step != queue.begin(); --step) {
-      const StepId before = *std::prev(step);
-      if (!told.emplace(arm, *step).second || !stands(state, state.jobs.at(before))) break;
-      edges.push_back({step->job, before.job});
+    if (told.contains({arm, step.id})) continue;
+    for (auto id = std::ranges::find(queue, step.id); id != queue.begin(); --id) {
+      const StepId before = *std::prev(id);
+      if (!told.emplace(arm, *id).second || !stands(state, state.jobs.at(before))) break;
+      edges.push_back({id->job, before.job});
     }
   }
 }
 
-Closed open_arm(const Turns& turns, const Record& record) {
-  const auto first = may_go_first(turns.state(), record);
+Closed open_arm(const Turns& turns, const Step& step) {
+  const auto first = may_go_first(turns.state(), step);
   return first ? order(*first) : std::nullopt;
 }
 
-void add_open_arm(const State& state, const Record& record, Edges& edges) {
-  if (!state.jobs.queues().is_first(record.job)) return;  // its arms will stand elsewhere by then
-  if (const auto first = may_go_first(state, record)) edges.push_back({record.job.id, *first});
+void add_open_arm(const State& state, const Step& step, Edges& edges) {
+  if (!state.jobs.queues().is_first(step)) return;  // its arms will stand elsewhere by then
+  if (const auto first = may_go_first(state, step)) edges.push_back({step.id.job, *first});
 }
 
-Closed after(const Turns&, const Record& record) {
-  if (record.job.after.empty()) return std::nullopt;
-  return order(record.job.after.front());
+Closed after(const Turns&, const Step& step) {
+  if (step.job->after.empty()) return std::nullopt;
+  return order(step.job->after.front());
 }
 
-void add_after(const State& state, const Record& record, Edges& edges) {
-  for (JobId before : record.job.after) {
-    if (stands(state, state.jobs.at(before))) edges.push_back({record.job.id, before});
+void add_after(const State& state, const Step& step, Edges& edges) {
+  for (JobId before : step.job->after) {
+    if (stands(state, state.jobs.at(before))) edges.push_back({step.id.job, before});
   }
 }
 
-Closed plan(const Turns&, const Record& record) {
-  const Job& job = record.job;
-  const bool is_unplanned = job.is_unplanned() && job.stands_in() == nullptr;
-  const bool is_asked = is_unplanned || job.is_replanned_now() || job.is_detour_asked() ||
-                        record.approaches.are_in_question();
+Closed plan(const Turns&, const Step& step) {
+  const bool is_unplanned = step.is_unplanned() && step.stands_in() == nullptr;
+  const bool is_asked = is_unplanned || step.is_replanned_now() || step.is_detour_asked() ||
+                        step.approaches.are_in_question();
   if (!is_asked) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::plan});
 }
 
-Closed lets_pass(const Turns& turns, const Record& record) {
-  if (!lets_another_pass(turns.state().jobs, record)) return std::nullopt;
-  return order(*record.errand.lets_pass);
+Closed lets_pass(const Turns& turns, const Step& step) {
+  if (!lets_another_pass(turns.state().jobs, step)) return std::nullopt;
+  return order(*step.job->errand.lets_pass);
 }
 
-void add_lets_pass(const State& state, const Record& record, Edges& edges) {
-  if (lets_another_pass(state.jobs, record))
-    edges.push_back({record.job.id, *record.errand.lets_pass});
+void add_lets_pass(const State& state, const Step& step, Edges& edges) {
+  if (lets_another_pass(state.jobs, step))
+    edges.push_back({step.id.job, *step.job->errand.lets_pass});
 }
 
-Closed stop(const Turns& turns, const Record& record) {
-  auto wait = operator_wait(turns.state(), record.job);
+Closed stop(const Turns& turns, const Step& step) {
+  auto wait = operator_wait(turns.state(), step);
   if (!wait) return std::nullopt;
   return FoundWaits(std::move(*wait));
 }
 
-Closed place(const Turns& turns, const Record& record) {
-  const auto taken_by = turns.state().policy->place_taken_by(turns.state(), record);
+Closed place(const Turns& turns, const Step& step) {
+  const auto taken_by = turns.state().policy->place_taken_by(turns.state(), step);
   if (!taken_by) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
 // A round lets others in by itself while all of it stands: there a place is never part of a cycle.
-void add_place(const State& state, const Record& record, Edges& edges) {
-  if (!record.job.is_waiting() || state.policy->opens_places()) return;
-  const auto taken_by = state.policy->place_taken_by(state, record);
+void add_place(const State& state, const Step& step, Edges& edges) {
+  if (!step.is_waiting() || state.policy->opens_places()) return;
+  const auto taken_by = state.policy->place_taken_by(state, step);
   if (taken_by && stands(state, state.jobs.at(*taken_by))) {
-    edges.push_back({record.job.id, *taken_by});
+    edges.push_back({step.id.job, *taken_by});
   }
 }
 
-Closed conflict(const Turns& turns, const Record& record) {
-  if (!record.job.is_waiting()) return std::nullopt;
-  if (!turns.state().is_judged(record.job)) return std::nullopt;
-  return FoundWaits(record.job.judgement().found);
+Closed conflict(const Turns& turns, const Step& step) {
+  if (!step.is_waiting()) return std::nullopt;
+  if (!turns.state().is_judged(step)) return std::nullopt;
+  return FoundWaits(step.judgement().found);
 }
 
 // It may be about to go: nothing is known to stand against it, and nobody has waited so long that
 // it would hold others back.
-bool may_go(const State& state, const Record& record) {
-  const Job& job = record.job;
-  if (!stands(state, record)) return true;
-  return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
-         job.after.empty() && !lets_another_pass(state.jobs, record) &&
-         !operator_wait(state, job) && !state.policy->place_taken_by(state, record) &&
+bool may_go(const State& state, const Step& step) {
+  if (!stands(state, step)) return true;
+  return step.is_waiting() && is_at_head(state.jobs, step) && !state.is_judged(step) &&
+         step.job->after.empty() && !lets_another_pass(state.jobs, step) &&
+         !operator_wait(state, step) && !state.policy->place_taken_by(state, step) &&
          !any_is_aged(state);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
 // elsewhere, another way is sought (ways/goals.h): until all stand, what it waits for is not known.
-bool may_have_another_way(const State& state, const Record& record) {
-  const Job& job = record.job;
-  if (job.in<Queued>() == nullptr || !job.goal || !job.goal->way().goes_through) return false;
+bool may_have_another_way(const State& state, const Step& step) {
+  if (step.in<Queued>() == nullptr || !step.goal || !step.goal->way().goes_through) return false;
   return std::ranges::any_of(state.jobs.active(), [&](JobId id) {
-    return id != job.id && may_go(state, state.jobs.at(id));
+    return id != step.id.job && may_go(state, state.jobs.at(id));
   });
 }
 
-void add_conflict(const State& state, const Record& record, Edges& edges) {
-  const FoundWaits found = found_in_the_way(state, record);
-  const bool may_pass = may_have_another_way(state, record);
+void add_conflict(const State& state, const Step& step, Edges& edges) {
+  const FoundWaits found = found_in_the_way(state, step);
+  const bool may_pass = may_have_another_way(state, step);
   for (const Wait& wait : found.all()) {
     if (may_pass && wait.kind != Wait::Kind::predecessor) continue;
     const auto first = has_to_move_first(state, wait);
     if (!first) continue;
     if (wait.kind == Wait::Kind::arm) {
-      edges.push_back({record.job.id, *wait.arm});
+      edges.push_back({step.id.job, *wait.arm});
       edges.push_back({*wait.arm, *first});
     } else {
-      edges.push_back({record.job.id, *first});
+      edges.push_back({step.id.job, *first});
     }
   }
 }
 
-Closed aging(const Turns& turns, const Record& record) {
-  const auto old = turns.held_back_by(record);
+Closed aging(const Turns& turns, const Step& step) {
+  const auto old = turns.held_back_by(step);
   if (!old) return std::nullopt;
-  const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old).job);
-  if (!may_go || !record.job.is_waiting() || record.job.judgement().found.empty()) {
+  const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old));
+  if (!may_go || !step.is_waiting() || step.judgement().found.empty()) {
     return FoundWaits(Wait{.kind = Wait::Kind::predecessor,
                            .job = *old,
                            .detail = "that job has waited longer than aging_s"});
   }
-  return FoundWaits(record.job.judgement().found);  // the older one may be about to go
+  return FoundWaits(step.judgement().found);  // the older one may be about to go
 }
 
 struct Gate {
   GateKind kind;
-  Closed (*closed)(const Turns&, const Record&);
+  Closed (*closed)(const Turns&, const Step&);
   // Adds whom this makes a job that stands wait for. Null if the gate opens without another job:
   //   plan   the planner answers
   //   stop   an operator resumes the arm, or raises its speed override
   //   aging  the older job, and all that goes first for it, is held back by nobody younger
-  void (*edges)(const State&, const Record&, Edges&) = nullptr;
+  void (*edges)(const State&, const Step&, Edges&) = nullptr;
   // Is passed by a job that has its turn on another arm (Submit::alternatives).
   bool of_its_arm = false;
 };
@@ -209,19 +206,19 @@ constexpr Gate kGates[] = {
     {GateKind::aging, aging},
 };
 
-void add_gates(const State& state, const Record& record, Edges& edges) {
+void add_gates(const State& state, const Step& step, Edges& edges) {
   for (const Gate& gate : kGates) {
-    if (gate.edges != nullptr) gate.edges(state, record, edges);
+    if (gate.edges != nullptr) gate.edges(state, step, edges);
   }
 }
 
 }  // namespace
 
-std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record) {
-  const bool has_turn = has_turn_on_some_arm(turns.state(), record);
+std::optional<ClosedGate> closed_gate(const Turns& turns, const Step& step) {
+  const bool has_turn = has_turn_on_some_arm(turns.state(), step);
   for (const Gate& gate : kGates) {
     if (gate.of_its_arm && has_turn) continue;
-    if (auto waits = gate.closed(turns, record)) return ClosedGate{gate.kind, std::move(*waits)};
+    if (auto waits = gate.closed(turns, step)) return ClosedGate{gate.kind, std::move(*waits)};
   }
   return std::nullopt;
 }
@@ -230,8 +227,8 @@ WaitsFor waits_for(const State& state) {
   Edges edges;
   add_behind(state, edges);
   for (JobId id : state.jobs.active()) {
-    const Record& record = state.jobs.at(id);
-    if (stands(state, record)) add_gates(state, record, edges);
+    const Step& step = state.jobs.at(id);
+    if (stands(state, step)) add_gates(state, step, edges);
   }
   return WaitsFor(std::move(edges));
 }
@@ -241,12 +238,12 @@ WaitsFor waits_for(const State& state, std::vector<JobId> jobs) {
   std::set<JobId> seen(jobs.begin(), jobs.end());
   std::set<std::pair<ArmId, StepId>> behind;
   while (!jobs.empty()) {
-    const Record& record = state.jobs.at(jobs.back());
+    const Step& step = state.jobs.at(jobs.back());
     jobs.pop_back();
-    if (!stands(state, record)) continue;
+    if (!stands(state, step)) continue;
     const std::size_t known = edges.size();
-    add_behind(state, record, edges, behind);
-    add_gates(state, record, edges);
+    add_behind(state, step, edges, behind);
+    add_gates(state, step, edges);
     for (std::size_t i = known; i < edges.size(); ++i) {
       const auto* first = std::get_if<JobId>(&edges[i].first);
       if (first != nullptr && seen.insert(*first).second) jobs.push_back(*first);
@@ -255,18 +252,18 @@ WaitsFor waits_for(const State& state, std::vector<JobId> jobs) {
   return WaitsFor(std::move(edges));
 }
 
-bool is_found_in_the_way(const State& state, const Record& record, JobId first) {
-  const FoundWaits found = found_in_the_way(state, record);
+bool is_found_in_the_way(const State& state, const Step& step, JobId first) {
+  const FoundWaits found = found_in_the_way(state, step);
   return std::ranges::any_of(found.all(), [&](const Wait& wait) {
     return wait.kind != Wait::Kind::predecessor && has_to_move_first(state, wait) == first;
   });
 }
 
-FoundWaits found_in_the_way(const State& state, const Record& record) {
-  if (record.job.is_waiting()) {
-    return state.is_judged(record.job) ? FoundWaits(record.job.judgement().found) : FoundWaits();
+FoundWaits found_in_the_way(const State& state, const Step& step) {
+  if (step.is_waiting()) {
+    return state.is_judged(step) ? FoundWaits(step.judgement().found) : FoundWaits();
   }
-  auto held = held_where_it_stands(state, record);
+  auto held = held_where_it_stands(state, step);
   return held ? FoundWaits(std::move(*held)) : FoundWaits();
 }
 
@@ -281,7 +278,7 @@ std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
   if (of_job && !jobs.is_active(*wait.job)) return std::nullopt;
   std::optional<JobId> first = wait.job;
-  const bool begun = of_job && jobs.at(*wait.job).job.has_started();
+  const bool begun = of_job && jobs.at(*wait.job).has_started();
   if (!begun && wait.arm) {  // its arm moves with its next job
     const auto& queue = jobs.queues()[*wait.arm];
     first = queue.empty() ? std::nullopt : std::optional(queue.front().job);

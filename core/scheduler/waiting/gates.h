@@ -44,7 +44,7 @@ struct ClosedGate {
   FoundWaits waits;  // never empty, except for a conflict without evidence
 };
 // Returns the first blocking condition of the job; nullopt if it may be checked.
-[[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record);
+[[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Step& step);
 
 // Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);
@@ -54,9 +54,9 @@ struct ClosedGate {
 
 // Returns what the job's last check found, if it still applies; for an admitted job, what holds it
 // back.
-[[nodiscard]] FoundWaits found_in_the_way(const State& state, const Record& record);
+[[nodiscard]] FoundWaits found_in_the_way(const State& state, const Step& step);
 // Returns true if the job is in conflict with a job or arm that moves only when `first` moves.
-[[nodiscard]] bool is_found_in_the_way(const State& state, const Record& record, JobId first);
+[[nodiscard]] bool is_found_in_the_way(const State& state, const Step& step, JobId first);
 // Returns the waiting job that must move before the wait can end. nullopt if that job is already
 // moving, or if there is no such job.
 [[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);

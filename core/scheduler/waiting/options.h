@@ -16,7 +16,7 @@ namespace armloom {
 // Options of a job without a goal leave every arm where it was, so all other jobs remain possible.
 struct Option {
   JobId job;
-  std::size_t alternative = 0;  // index into Job::alternatives, if there are any
+  std::size_t alternative = 0;  // index into Step::alternatives, if there are any
   bool goes_now = true;         // false if other jobs of that arm must go first
 
   bool operator==(const Option&) const = default;
@@ -33,15 +33,15 @@ inline constexpr std::size_t kUndecidedMax = 16;
 // scheduling.aging ago is not overtaken again.
 [[nodiscard]] std::vector<Option> options_of(State& state, JobId turn);
 // Returns true if another job of the same arm could take this job's turn.
-[[nodiscard]] bool others_may_take_its_turn(const State& state, const Record& turn);
+[[nodiscard]] bool others_may_take_its_turn(const State& state, const Step& turn);
 // Returns true if the job is queued and it is its turn on the arm of one of its alternatives.
-[[nodiscard]] bool has_turn_on_some_arm(const State& state, const Record& record);
+[[nodiscard]] bool has_turn_on_some_arm(const State& state, const Step& step);
 
 // Returns the place of this waiting job in the arm's queue: behind the last job that is admitted or
 // has an earlier turn. A job of the server has the turn of the job that it helps.
-[[nodiscard]] std::size_t place_on(const State& state, const Record& record, ArmId arm);
+[[nodiscard]] std::size_t place_on(const State& state, const Step& step, ArmId arm);
 // Gives the job this alternative, and moves it to place_on() in the queue of that arm.
-void take_alternative(State& state, Record& record, std::size_t which);
+void take_alternative(State& state, Step& step, std::size_t which);
 
 // Call before the steps `go` are admitted. Some undecided jobs might then no longer be possible on
 // the arm that they have. Assigns each of these to another arm for good, and returns true if there
@@ -56,11 +56,11 @@ void take_alternative(State& state, Record& record, std::size_t which);
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
 // Call after a job was added. If the new job could take the turn of a deferred job, that job is
 // checked again.
-void reopen_turn(State& state, const Record& added);
+void reopen_turn(State& state, const Step& added);
 // Returns true if all options still wait.
 [[nodiscard]] bool stand(const State& state, const std::vector<Option>& options);
 // Gives the queued job an alternative that begins where its arm is, or will be at the job's turn.
 // Returns false if there is none.
-[[nodiscard]] bool begins_on_other_arm(State& state, Record& record);
+[[nodiscard]] bool begins_on_other_arm(State& state, Step& step);
 
 }  // namespace armloom

@@ -14,34 +14,34 @@
 namespace armloom {
 namespace {
 
-bool is_aged(const State& state, const Record& record) {
-  return record.job.in<Queued>() != nullptr && state.has_aged(record) &&
-         is_at_head(state.jobs, record) && !operator_wait(state, record.job);
+bool is_aged(const State& state, const Step& step) {
+  return step.in<Queued>() != nullptr && state.has_aged(step) && is_at_head(state.jobs, step) &&
+         !operator_wait(state, step);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
 // stop, a ring.
-bool waits_beyond_turns(const State& state, const Record& record) {
-  if (!record.job.ring.empty()) return true;
-  if (!is_at_head(state.jobs, record)) return false;
-  if (operator_wait(state, record.job)) return true;
-  if (!record.job.is_waiting() || !state.is_judged(record.job)) return false;
-  return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
+bool waits_beyond_turns(const State& state, const Step& step) {
+  if (!step.job->ring.empty()) return true;
+  if (!is_at_head(state.jobs, step)) return false;
+  if (operator_wait(state, step)) return true;
+  if (!step.is_waiting() || !state.is_judged(step)) return false;
+  return std::ranges::any_of(step.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
     const auto& queue = state.jobs.queues()[*wait.arm];
-    const bool moves = !queue.empty() && !state.jobs.at(queue.front()).job.is_waiting();
+    const bool moves = !queue.empty() && !state.jobs.at(queue.front()).is_waiting();
     return !moves && !has_to_move_first(state, wait);
   });
 }
 
 // It is to be judged by another way (ways/detour.h), and may go by its own.
-bool has_way_for_a_while(const Job& job) {
-  return job.goal && job.goal->detour && job.goal->detour->is_weighed;
+bool has_way_for_a_while(const Step& step) {
+  return step.goal && step.goal->detour && step.goal->detour->is_weighed;
 }
 
 // Of an arm's jobs the first that is not admitted; nothing: all are.
 std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue& queue) {
-  const auto waits = [&](StepId step) { return state.jobs.at(step).job.is_waiting(); };
+  const auto waits = [&](StepId step) { return state.jobs.at(step).is_waiting(); };
   const auto first = std::ranges::find_if(queue, waits);
   return first == queue.end() ? std::nullopt : std::optional(first->job);
 }
@@ -102,14 +102,15 @@ std::vector<Turns::Aged> Turns::aged_jobs() const {
   return aged;
 }
 
-std::optional<JobId> Turns::held_back_by(const Record& record) const {
-  if (record.job.in<Held>() != nullptr) return std::nullopt;
+std::optional<JobId> Turns::held_back_by(const Step& step) const {
+  if (step.in<Held>() != nullptr) return std::nullopt;
   for (const Aged& a : aged_) {
     // It has this one's turn: those that are aged for less long do not hold it back either.
-    if (a.job == record.job.id) break;
-    if (std::ranges::binary_search(a.goes_first, record.job.id)) break;
-    const Job& old = state_.jobs.at(a.job).job;
-    const bool outranks = record.job.id < old.id && record.job.terms.priority > old.terms.priority;
+    if (a.job == step.id.job) break;
+    if (std::ranges::binary_search(a.goes_first, step.id.job)) break;
+    const Step& old = state_.jobs.at(a.job);
+    const bool outranks =
+        step.id.job < old.id.job && step.job->terms.priority > old.job->terms.priority;
     if (!outranks) return a.job;
   }
   return std::nullopt;
@@ -120,65 +121,65 @@ std::map<JobId, int> Turns::urgencies() const {
   if (state_.jobs.all_as_urgent()) return {};
   std::vector<Urgency> jobs;
   for (JobId id : state_.jobs.active()) {
-    const Job& job = state_.jobs.at(id).job;
-    if (job.is_waiting()) jobs.push_back({id, job.terms.priority});
+    const Step& step = state_.jobs.at(id);
+    if (step.is_waiting()) jobs.push_back({id, step.job->terms.priority});
   }
   return effective_priorities(waits_for(state_), std::move(jobs));
 }
 
-bool Turns::is_closed(const Record& record) const {
-  const auto known = std::ranges::find(found_, record.job.id, &std::pair<JobId, bool>::first);
-  return known != found_.end() ? known->second : closed_gate(*this, record).has_value();
+bool Turns::is_closed(const Step& step) const {
+  const auto known = std::ranges::find(found_, step.id.job, &std::pair<JobId, bool>::first);
+  return known != found_.end() ? known->second : closed_gate(*this, step).has_value();
 }
 
 std::optional<JobId> Turns::next() const {
-  const Record* best = nullptr;
+  const Step* best = nullptr;
   const std::map<JobId, int> urgency = urgencies();
-  const auto goes_before = [&](const Record& a, const Record& b) {
-    if (has_way_for_a_while(a.job) != has_way_for_a_while(b.job))
-      return has_way_for_a_while(a.job);  // lest others count on a way that it may not go
+  const auto goes_before = [&](const Step& a, const Step& b) {
+    if (has_way_for_a_while(a) != has_way_for_a_while(b))
+      return has_way_for_a_while(a);  // lest others count on a way that it may not go
     if (a.asking.effort != b.asking.effort)
       return a.asking.effort < b.asking.effort;  // what takes long keeps nobody waiting
-    const bool a_held = a.job.in<Held>() != nullptr;
-    const bool b_held = b.job.in<Held>() != nullptr;
+    const bool a_held = a.in<Held>() != nullptr;
+    const bool b_held = b.in<Held>() != nullptr;
     if (a_held != b_held) return a_held;
-    if (urgency.empty() || urgency.at(a.job.id) == urgency.at(b.job.id)) {
-      return a.turn < b.turn;
+    if (urgency.empty() || urgency.at(a.id.job) == urgency.at(b.id.job)) {
+      return a.job->turn < b.job->turn;
     }
-    return urgency.at(a.job.id) > urgency.at(b.job.id);
+    return urgency.at(a.id.job) > urgency.at(b.id.job);
   };
   const auto consider = [&](JobId job) {
-    const Record& record = state_.jobs.at(job);
-    if (is_closed(record)) return;
-    if (best == nullptr || goes_before(record, *best)) best = &record;
+    const Step& step = state_.jobs.at(job);
+    if (is_closed(step)) return;
+    if (best == nullptr || goes_before(step, *best)) best = &step;
   };
   for (const auto& queue : state_.jobs.queues()) {
     if (const auto first = first_that_waits(state_, queue)) consider(*first);
   }
   std::ranges::for_each(first_undecided(state_), consider);
-  return best != nullptr ? std::optional(best->job.id) : std::nullopt;
+  return best != nullptr ? std::optional(best->id.job) : std::nullopt;
 }
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
 Turns explain_waits(State& state) {
   Turns turns(state);
   for (JobId id : to_explain(state)) {
-    Record& record = state.jobs.at(id);
-    const bool waits = record.job.is_waiting();
-    if (!waits && record.job.in<Admitted>() == nullptr) continue;
-    const auto closed = closed_gate(turns, record);
+    Step& step = state.jobs.at(id);
+    const bool waits = step.is_waiting();
+    if (!waits && step.in<Admitted>() == nullptr) continue;
+    const auto closed = closed_gate(turns, step);
     turns.has_found(id, closed.has_value());
     if (!waits) {  // it is admitted: only what is before it on its arms counts
       if (closed && closed->kind == GateKind::behind) {
-        state.jobs.set_waits(record, closed->waits.all());
+        state.jobs.set_waits(step, closed->waits.all());
       }
       continue;
     }
-    if (closed && closed->kind == GateKind::place && !record.ages_from) {
-      record.ages_from = {state.now, state.clock()};
+    if (closed && closed->kind == GateKind::place && !step.ages_from) {
+      step.ages_from = {state.now, state.clock()};
     }
     // An open job is about to be judged: until then it waits for what was found the last time.
-    state.jobs.set_waits(record, closed ? closed->waits.all() : record.job.judgement().found);
+    state.jobs.set_waits(step, closed ? closed->waits.all() : step.judgement().found);
   }
   return turns;
 }

@@ -26,7 +26,7 @@ class Turns {
   [[nodiscard]] std::optional<JobId> next() const;
   // Returns the aged job that holds this job back; if there are several, the one that aged first.
   // nullopt if there is none.
-  [[nodiscard]] std::optional<JobId> held_back_by(const Record& record) const;
+  [[nodiscard]] std::optional<JobId> held_back_by(const Step& step) const;
   // Caches whether the job is blocked.
   void has_found(JobId job, bool is_closed) { found_.emplace_back(job, is_closed); }
 
@@ -38,7 +38,7 @@ class Turns {
   };
   [[nodiscard]] std::vector<Aged> aged_jobs() const;  // the oldest first
   [[nodiscard]] std::map<JobId, int> urgencies() const;
-  [[nodiscard]] bool is_closed(const Record& record) const;
+  [[nodiscard]] bool is_closed(const Step& step) const;
 
   const State& state_;
   std::vector<Aged> aged_;  // those that hold others back

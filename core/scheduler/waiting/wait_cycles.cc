@@ -43,22 +43,22 @@ bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
 void untell(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     if (!state.jobs.is_active(id)) continue;
-    Record& record = state.jobs.at(id);
-    const auto* braking = record.job.in<Braking>();
+    Step& step = state.jobs.at(id);
+    const auto* braking = step.in<Braking>();
     const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
                              braking->after.reason == Reason::deadlock;
     if (ends_for_it) continue;  // it names the ring when it has come to rest
-    record.job.ring.clear();
-    state.jobs.changed(record);
+    state.jobs.change(step).ring.clear();
+    state.jobs.changed(step);
   }
 }
 
 // An arm that is aside for the sake of another one of the ring comes back first.
 bool comes_back(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
-    Record& record = state.jobs.at(id);
-    if (!lets_another_pass(state.jobs, record) || !is_on(ring, *record.errand.lets_pass)) continue;
-    record.errand.lets_pass.reset();
+    Step& step = state.jobs.at(id);
+    if (!lets_another_pass(state.jobs, step) || !is_on(ring, *step.job->errand.lets_pass)) continue;
+    state.jobs.change(step).errand.lets_pass.reset();
     state.lanes.renew_later();
     return true;
   }
@@ -68,11 +68,11 @@ bool comes_back(State& state, const WaitCycle& ring) {
 // One that is brought to where it begins needs no other job to bring its arm there.
 bool goes_before_open_arm(State& state, const WaitCycle& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    Record& record = state.jobs.at(ring[i]);
-    const auto open = may_go_first(state, record);
-    if (!record.is_brought_to_start() || open != next_on(ring, i)) continue;
-    record.approaches.ahead_of.insert(*open);
-    state.jobs.explain(record);
+    Step& step = state.jobs.at(ring[i]);
+    const auto open = may_go_first(state, step);
+    if (!step.is_brought_to_start() || open != next_on(ring, i)) continue;
+    step.approaches.ahead_of.insert(*open);
+    state.jobs.explain(step);
     return true;
   }
   return false;
@@ -80,13 +80,13 @@ bool goes_before_open_arm(State& state, const WaitCycle& ring) {
 
 bool one_expires(const State& state, const WaitCycle& ring) {
   return std::ranges::any_of(
-      ring, [&](JobId id) { return expiry_of(state, state.jobs.at(id).job).has_value(); });
+      ring, [&](JobId id) { return expiry_of(state, state.jobs.at(id)).has_value(); });
 }
 
 bool is_asked(const State& state, const WaitCycle& ring) {
   return std::ranges::any_of(ring, [&](JobId id) {
-    const Record* record = state.jobs.find(id);
-    return record != nullptr && record->job.is_replanned_now();
+    const Step* step = state.jobs.find(id);
+    return step != nullptr && step->is_replanned_now();
   });
 }
 
@@ -113,10 +113,10 @@ void WaitCycles::name(State& state) {
     if (told) continue;
     Named named{.ring = ring, .epoch = state.scene_epoch, .in_turn = {}};
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      Record& record = state.jobs.at(ring[i]);
-      if (!is_found_in_the_way(state, record, next_on(ring, i))) named.in_turn.push_back(ring[i]);
-      record.job.ring = beginning_with(ring[i], ring);
-      state.jobs.changed(record);
+      Step& step = state.jobs.at(ring[i]);
+      if (!is_found_in_the_way(state, step, next_on(ring, i))) named.in_turn.push_back(ring[i]);
+      state.jobs.change(step).ring = beginning_with(ring[i], ring);
+      state.jobs.changed(step);
     }
     named_.push_back(std::move(named));
   }
@@ -157,8 +157,8 @@ void WaitCycles::settle(State& state) {
   }
 }
 
-bool WaitCycles::has_lost_one(const State& state, const Record& record) const {
-  return std::ranges::any_of(record.job.trajectory->arms(), [&](ArmId arm) {
+bool WaitCycles::has_lost_one(const State& state, const Step& step) const {
+  return std::ranges::any_of(step.trajectory->arms(), [&](ArmId arm) {
     const auto lost = lost_.find(arm);
     return lost != lost_.end() && lost->second.epoch == state.scene_epoch &&
            lost->second.came_by == state.arms.came_by(arm);
@@ -170,9 +170,9 @@ bool WaitCycles::has_lost_one(const State& state, const Record& record) const {
 // nullopt if all arms of the ring have lost a job here, and one of it expires in time.
 std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& ring) const {
   const auto dispensable = [&](JobId id) {
-    const Record& record = state.jobs.at(id);
-    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
-                      record.job.system_job, id);
+    const Step& step = state.jobs.at(id);
+    return std::tuple(!step.job->system_job || !is_counted_on(state, step), step.job->system_job,
+                      id);
   };
   WaitCycle last = ring;
   std::erase_if(last, [&](JobId id) { return has_lost_one(state, state.jobs.at(id)); });
@@ -186,11 +186,11 @@ bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
   if (comes_back(state, ring)) return true;
   const auto id = gives_way(state, ring);
   if (!id) return false;
-  Record& last = state.jobs.at(approached_job(state, *id).value_or(*id));
-  last.job.ring = state.jobs.at(*id).job.ring;
+  Step& last = state.jobs.at(approached_job(state, *id).value_or(*id));
+  state.jobs.change(last).ring = state.jobs.at(*id).job->ring;
   keep_those_behind(state, last);
-  for (ArmId arm : last.job.trajectory->arms()) {
-    if (last.job.system_job) break;
+  for (ArmId arm : last.trajectory->arms()) {
+    if (last.job->system_job) break;
     lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.scene_epoch});
   }
   const AfterStop fails{AfterStop::Then::fail, Reason::deadlock};

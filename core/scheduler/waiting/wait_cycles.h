@@ -52,7 +52,7 @@ class WaitCycles {
     Version epoch;
   };
   [[nodiscard]] bool stands_still(const State& state, const Named& named) const;
-  [[nodiscard]] bool has_lost_one(const State& state, const Record& record) const;
+  [[nodiscard]] bool has_lost_one(const State& state, const Step& step) const;
   [[nodiscard]] std::optional<JobId> gives_way(const State& state, const WaitCycle& ring) const;
   bool resolve(State& state, const WaitCycle& ring);
 

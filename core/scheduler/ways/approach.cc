@@ -12,9 +12,9 @@
 namespace armloom {
 namespace {
 
-bool send_to_start(State& state, Record& head, ArmId arm) {
+bool send_to_start(State& state, Step& head, ArmId arm) {
   Configuration at = state.arms.rest();
-  set_joints(at, *head.job.trajectory, head.job.trajectory->start());
+  set_joints(at, *head.trajectory, head.trajectory->start());
   const auto& joints = state.cell->arm(arm).joints;
   const Eigen::VectorXd to = joints_of(at, joints);
   const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
@@ -22,25 +22,24 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   TrajectoryPtr way =
       line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to, speed);
   if (!way) return false;
-  Record record = record_of(state, {.job = state.jobs.next_id(),
-                                    .trajectory = std::move(way),
-                                    .terms = {.priority = head.job.terms.priority,
-                                              .backlog_timeout = head.job.terms.backlog_timeout,
-                                              .on_timeout = head.job.terms.on_timeout},
-                                    .goals = {{.arm = arm, .to = to, .speed = speed}},
-                                    .system_job = true});
-  record.errand.on_behalf_of = head.errand.on_behalf_of;
-  record.errand.before = head.job.id;
-  const JobId id = record.job.id;
-  add(state, std::move(record));
+  const JobId id = state.jobs.next_id();
+  const Submit job{.job = id,
+                   .trajectory = std::move(way),
+                   .terms = {.priority = head.job->terms.priority,
+                             .backlog_timeout = head.job->terms.backlog_timeout,
+                             .on_timeout = head.job->terms.on_timeout},
+                   .goals = {{.arm = arm, .to = to, .speed = speed}},
+                   .system_job = true};
+  const Errand errand{.on_behalf_of = head.job->errand.on_behalf_of, .before = head.id.job};
+  add(state, step_of(state, job, errand));
   state.decided.sent_aside.push_back(
-      {.job = id, .arm = arm, .blocked_job = head.job.id, .to_start = true});
+      {.job = id, .arm = arm, .blocked_job = head.id.job, .to_start = true});
   return true;
 }
 
 // Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
 // stand.
-bool goes_to_start(State& state, Record& head) {
+bool goes_to_start(State& state, Step& head) {
   if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
@@ -50,10 +49,10 @@ bool goes_to_start(State& state, Record& head) {
     return true;
   }
   ++head.approaches.tries;
-  const std::vector<ArmId> arms = head.job.trajectory->arms();
+  const std::vector<ArmId> arms = head.trajectory->arms();
   bool goes = false;
   for (ArmId arm : arms) {
-    if (!state.arms.begins_elsewhere(*state.cell, *head.job.trajectory, arm)) continue;
+    if (!state.arms.begins_elsewhere(*state.cell, *head.trajectory, arm)) continue;
     goes = send_to_start(state, head, arm) || goes;
   }
   return goes;
@@ -64,35 +63,36 @@ bool goes_to_start(State& state, Record& head) {
 std::optional<JobId> next_in_question(const State& state) {
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
-    const Record& head = state.jobs.at(queue.front());
-    if (head.approaches.are_in_question() && is_at_head(state.jobs, head)) return head.job.id;
+    const Step& head = state.jobs.at(queue.front());
+    if (head.approaches.are_in_question() && is_at_head(state.jobs, head)) return head.id.job;
   }
   return std::nullopt;
 }
 
-std::vector<JobId> approaches_of(const State& state, const Record& record) {
+std::vector<JobId> approaches_of(const State& state, const Step& step) {
   std::vector<JobId> approaches;
-  if (record.approaches.tries == 0) return approaches;
-  for (ArmId arm : record.job.trajectory->arms()) {
-    for (StepId step : state.jobs.queues()[arm]) {
-      const Record& own = state.jobs.at(step);
-      if (own.errand.before == record.job.id && own.job.system_job && own.job.goal)
-        approaches.push_back(own.job.id);
+  if (step.approaches.tries == 0) return approaches;
+  for (ArmId arm : step.trajectory->arms()) {
+    for (StepId id : state.jobs.queues()[arm]) {
+      const Step& own = state.jobs.at(id);
+      if (own.job->errand.before == step.id.job && own.job->system_job && own.goal)
+        approaches.push_back(own.id.job);
     }
   }
   return approaches;
 }
 
 std::optional<JobId> approached_job(const State& state, JobId approach) {
-  const Record& own = state.jobs.at(approach);
-  if (!own.errand.before || !state.jobs.is_active(*own.errand.before)) return std::nullopt;
-  const std::vector<JobId> all = approaches_of(state, state.jobs.at(*own.errand.before));
-  return std::ranges::find(all, approach) != all.end() ? own.errand.before : std::nullopt;
+  const Step& own = state.jobs.at(approach);
+  if (!own.job->errand.before || !state.jobs.is_active(*own.job->errand.before))
+    return std::nullopt;
+  const std::vector<JobId> all = approaches_of(state, state.jobs.at(*own.job->errand.before));
+  return std::ranges::find(all, approach) != all.end() ? own.job->errand.before : std::nullopt;
 }
 
-void keep_those_behind(State& state, const Record& record) {
-  for (ArmId arm : record.job.trajectory->arms()) {
-    const auto next = state.jobs.queues().behind(record.job, arm);
+void keep_those_behind(State& state, const Step& step) {
+  for (ArmId arm : step.trajectory->arms()) {
+    const auto next = state.jobs.queues().behind(step, arm);
     if (next) state.jobs.at(*next).approaches.after_deadlock = true;
   }
   state.lanes.renew_later();
@@ -105,13 +105,12 @@ void fail_impossible_starts(State& state) {
     ++unchanged;
     const auto& queue = state.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    Record& head = state.jobs.at(queue.front());
-    const Job& job = head.job;
-    if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
-    if (job.goal) continue;  // its way begins where the arm stands
+    Step& head = state.jobs.at(queue.front());
+    if (!head.is_waiting() || head.has_started() || !is_at_head(state.jobs, head)) continue;
+    if (head.goal) continue;  // its way begins where the arm stands
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
-    if (job.is_held_over && state.arms.stop_of(job)) continue;
-    auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
+    if (head.job->is_held_over && state.arms.stop_of(head)) continue;
+    auto mismatch = state.arms.start_mismatch(*state.cell, *head.trajectory);
     if (!mismatch) continue;
     unchanged = 0;
     if (begins_on_other_arm(state, head) || goes_to_start(state, head)) continue;

@@ -22,12 +22,12 @@ void fail_impossible_starts(State& state);
 // Call when the job fails with Reason::deadlock, or fails because an earlier job did. The arms are
 // then moved to the start of their next jobs, as with MoveToStart::plan, so that these do not fail
 // too.
-void keep_those_behind(State& state, const Record& record);
+void keep_those_behind(State& state, const Step& step);
 // Returns the first job at the front of its queues that must be checked for self-collisions before
 // its arms are moved to its start; nullopt if there is none.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Returns the job's moves-to-start that have not ended.
-[[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);
+[[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Step& step);
 // Returns the job that this move-to-start is for; nullopt if it is not a move-to-start.
 [[nodiscard]] std::optional<JobId> approached_job(const State& state, JobId approach);
 

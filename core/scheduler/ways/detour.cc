@@ -15,10 +15,9 @@ namespace {
 
 constexpr TimePoint kNever = TimePoint::max();
 
-bool may_go_round(const Record& record) {
-  const Job& job = record.job;
-  return job.goal && !job.has_open_arm() && job.in<Queued>() != nullptr && !job.is_unplanned() &&
-         !job.is_replanned_now() && !job.goal->way().goal.straight;
+bool may_go_round(const Step& step) {
+  return step.goal && !step.has_open_arm() && step.in<Queued>() != nullptr &&
+         !step.is_unplanned() && !step.is_replanned_now() && !step.goal->way().goal.straight;
 }
 
 // When it would be there.
@@ -29,16 +28,16 @@ TimePoint arrival(const State& state, const PassingOrders& orders) {
 }
 
 // If nobody met it on its way.
-TimePoint soonest(const State& state, const Job& job, const PassingOrders& orders) {
+TimePoint soonest(const State& state, const Step& step, const PassingOrders& orders) {
   const auto& motions = state.graph.motions();
-  const ArmId arm = job.goal->way().goal.arm;
+  const ArmId arm = step.goal->way().goal.arm;
   Duration ready{};
   for (std::size_t m = 0; m < std::min(motions.size(), orders.prediction.ends.size()); ++m) {
     const auto& arms = motions[m].arms;
     if (std::ranges::find(arms, arm) != arms.end())
       ready = std::max(ready, orders.prediction.ends[m]);
   }
-  return state.now + ready + state.time_for(*job.trajectory);
+  return state.now + ready + state.time_for(*step.trajectory);
 }
 
 // From when to when of its own time the other motion is in the way there.
@@ -50,18 +49,18 @@ std::pair<Duration, Duration> holds(const ConflictRegion& region) {
 
 // Where each of the others is half-way through the longest time for which it is in the way; all
 // else where it rests, or will.
-Configuration places_held(const State& state, const Record& record,
+Configuration places_held(const State& state, const Step& step,
                           const std::vector<PairRegions>& regions) {
   Configuration at = state.arms.rest();
   for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Trajectory& trajectory = *state.jobs.at(motion.step).job.trajectory;
+    const Trajectory& trajectory = *state.jobs.at(motion.step).trajectory;
     set_joints(at, trajectory, trajectory.goal());
   }
   Eigen::VectorXd held;
   for (const PairRegions& pair : regions) {
     const auto* other = std::get_if<StepId>(&pair.b);
     if (other == nullptr || pair.regions.empty()) continue;
-    const Trajectory& trajectory = *state.jobs.at(*other).job.trajectory;
+    const Trajectory& trajectory = *state.jobs.at(*other).trajectory;
     Duration from{}, to{};
     for (const ConflictRegion& region : pair.regions) {
       const auto [begins, ends] = holds(region);
@@ -70,22 +69,21 @@ Configuration places_held(const State& state, const Record& record,
     trajectory.sample_positions(from + (to - from) / 2, held);
     set_joints(at, trajectory, held);
   }
-  set_joints(at, *record.job.trajectory, record.job.trajectory->start());
+  set_joints(at, *step.trajectory, step.trajectory->start());
   return at;
 }
 
-void ask(State& state, Record& record) {
-  const Job& job = record.job;
-  JobGoal& goal = *record.job.goal;
+void ask(State& state, Step& step) {
+  JobGoal& goal = *step.goal;
   Detour& detour = *goal.detour;
   PlanQuestion question{
       .goal = {.arm = goal.way().goal.arm,
-               .to = Eigen::VectorXd(job.trajectory->goal()),
+               .to = Eigen::VectorXd(step.trajectory->goal()),
                .speed = goal.way().goal.speed},
       .at = detour.request.beside,
-      .seed = job.id.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
+      .seed = step.id.job.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
       .budget = kDetourBudget};
-  send(state, record, detour.request, std::move(question));
+  send(state, step, detour.request, std::move(question));
 }
 
 // Whether another one is worth the question.
@@ -94,78 +92,78 @@ bool goes_on(const Detour& detour) {
 }
 
 // Of those that were weighed. Whether that is another one than it had.
-bool go_by_best(State& state, Record& record) {
-  Detour& detour = *record.job.goal->detour;
+bool go_by_best(State& state, Step& step) {
+  Detour& detour = *step.goal->detour;
   detour.is_weighed = false;
-  if (!detour.best || record.job.trajectory == detour.best) return false;
-  go_by(state, record, detour.best);
+  if (!detour.best || step.trajectory == detour.best) return false;
+  go_by(state, step, detour.best);
   return true;
 }
 
 // It has been judged by another way. Whether it is to be judged once more: by a further one, or by
 // the best of them.
-bool rate(State& state, Record& record, TimePoint arrives) {
-  Detour& detour = *record.job.goal->detour;
+bool rate(State& state, Step& step, TimePoint arrives) {
+  Detour& detour = *step.goal->detour;
   if (arrives != kNever && arrives + Choosing::kWorthwhile < detour.arrives) {
-    detour.best = record.job.trajectory;
+    detour.best = step.trajectory;
     detour.is_taken = true;
     if (detour.arrives != kNever) detour.saves += detour.arrives - arrives;
     detour.arrives = arrives;
   }
   const bool asks_on = goes_on(detour);
   // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
-  const bool is_another = go_by_best(state, record);
-  if (asks_on) ask(state, record);
+  const bool is_another = go_by_best(state, step);
+  if (asks_on) ask(state, step);
   return asks_on || is_another;
 }
 
 }  // namespace
 
-bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>& regions,
+bool weighs_detour(State& state, Step& step, const std::vector<PairRegions>& regions,
                    const PassingOrders& orders) {
-  if (!may_go_round(record)) return false;
-  auto& detour = record.job.goal->detour;
+  if (!may_go_round(step)) return false;
+  auto& detour = step.goal->detour;
   const TimePoint arrives = arrival(state, orders);
-  if (detour && std::exchange(detour->is_weighed, false)) return rate(state, record, arrives);
-  const TimePoint soon_enough = soonest(state, record.job, orders) + kWaitWorthADetour;
+  if (detour && std::exchange(detour->is_weighed, false)) return rate(state, step, arrives);
+  const TimePoint soon_enough = soonest(state, step, orders) + kWaitWorthADetour;
   if (arrives <= soon_enough || (detour && detour->request.tries >= kDetoursMax)) return false;
-  Configuration beside = places_held(state, record, regions);
+  Configuration beside = places_held(state, step, regions);
   const bool is_as_tried =
       detour && detour->request.asked_at >= state.scene_epoch && detour->request.beside == beside;
   if (is_as_tried) return false;
   if (!detour) detour.emplace();
   detour->request.beside = std::move(beside);
-  detour->best = record.job.trajectory;
+  detour->best = step.trajectory;
   detour->arrives = arrives;
   detour->soon_enough = soon_enough;
-  ask(state, record);
+  ask(state, step);
   return true;
 }
 
-bool gives_detour_up(State& state, Record& record) {
-  if (!may_go_round(record) || !record.job.goal->detour) return false;
-  Detour& detour = *record.job.goal->detour;
-  if (!std::exchange(detour.is_taken, false)) return go_by_best(state, record);
+bool gives_detour_up(State& state, Step& step) {
+  if (!may_go_round(step) || !step.goal->detour) return false;
+  Detour& detour = *step.goal->detour;
+  if (!std::exchange(detour.is_taken, false)) return go_by_best(state, step);
   detour.best = nullptr;
   detour.is_weighed = false;
   detour.saves = {};
-  forget_plan(state, record);
+  forget_plan(state, step);
   return true;
 }
 
-void take_detour(State& state, Record& record, const PlanMade& answer) {
-  Detour& detour = *record.job.goal->detour;
-  state.jobs.explain(record);
-  if (!may_go_round(record)) return;
+void take_detour(State& state, Step& step, const PlanMade& answer) {
+  Detour& detour = *step.goal->detour;
+  state.jobs.explain(step);
+  if (!may_go_round(step)) return;
   const bool fits = answer.trajectory && detour.best &&
                     detour.request.asked_at >= state.scene_epoch &&
                     answer.trajectory->start().isApprox(detour.best->start());
   const bool is_sooner = fits && state.now + state.time_for(*answer.trajectory) < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.
-  if (fits && !is_sooner && goes_on(detour)) return ask(state, record);
-  if (!is_sooner) return (void)go_by_best(state, record);
+  if (fits && !is_sooner && goes_on(detour)) return ask(state, step);
+  if (!is_sooner) return (void)go_by_best(state, step);
   detour.is_weighed = true;
-  go_by(state, record, answer.trajectory);
+  go_by(state, step, answer.trajectory);
 }
 
 }  // namespace armloom

@@ -26,19 +26,19 @@ bool fits(const State& state, const GoalWay& way, const Configuration& at) {
 }
 
 // What is admitted will come to its end, whoever came first.
-bool comes_to_its_end(const Job& job) { return job.in<Queued>() == nullptr; }
+bool comes_to_its_end(const Step& step) { return step.in<Queued>() == nullptr; }
 
 // Where the arm comes to rest by what is admitted.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
-  for (StepId step : state.jobs.queues()[arm]) {
-    const Job& job = state.jobs.at(step).job;
-    if (comes_to_its_end(job)) follow_to_end(at, *state.cell, arm, *job.trajectory);
+  for (StepId id : state.jobs.queues()[arm]) {
+    const Step& step = state.jobs.at(id);
+    if (comes_to_its_end(step)) follow_to_end(at, *state.cell, arm, *step.trajectory);
   }
 }
 
-bool is_found_in_the_way(const State& state, const Job& job, ArmId arm) {
-  if (!job.is_waiting() || !state.is_judged(job)) return false;
-  return std::ranges::any_of(job.judgement().found, [arm](const Wait& wait) {
+bool is_found_in_the_way(const State& state, const Step& step, ArmId arm) {
+  if (!step.is_waiting() || !state.is_judged(step)) return false;
+  return std::ranges::any_of(step.judgement().found, [arm](const Wait& wait) {
     const bool of_an_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
     return of_an_arm && wait.arm == arm;
   });
@@ -46,16 +46,15 @@ bool is_found_in_the_way(const State& state, const Job& job, ArmId arm) {
 
 // Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
 // may yet go by another arm counts as if it did.
-std::optional<Configuration> at_its_turn(const State& state, const Record& record,
-                                         const GoalWay& way) {
+std::optional<Configuration> at_its_turn(const State& state, const Step& step, const GoalWay& way) {
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
   const auto& queue = state.jobs.queues()[arm];
-  const bool is_taken = record.job.goal->way().goal.arm == arm;
-  std::size_t before = is_taken ? queue.size() : place_on(state, record, arm);
-  for (StepId step : queue) {
-    if (before-- == 0 || step == record.job.step()) break;
-    const Job& other = state.jobs.at(step).job;
+  const bool is_taken = step.goal->way().goal.arm == arm;
+  std::size_t before = is_taken ? queue.size() : place_on(state, step, arm);
+  for (StepId id : queue) {
+    if (before-- == 0 || id == step.id) break;
+    const Step& other = state.jobs.at(id);
     if (other.has_open_arm()) continue;
     if (other.is_unplanned()) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -66,10 +65,11 @@ std::optional<Configuration> at_its_turn(const State& state, const Record& recor
 // In its turn: all that came before it is done, or is admitted, and its own arm is where the job
 // finds it. Who was found in its way is passed where it comes to rest by what is admitted, whoever
 // came first, and so for as long as it comes to rest there.
-PlanQuestion question_about(const State& state, const Record& record, const GoalWay& way,
+PlanQuestion question_about(const State& state, const Step& step, const GoalWay& way,
                             Configuration at) {
-  PlanQuestion question{.goal = way.goal, .seed = record.job.id.value()};
-  const JobId turn = record.errand.before ? state.jobs.at(*record.errand.before).turn : record.turn;
+  PlanQuestion question{.goal = way.goal, .seed = step.id.job.value()};
+  const JobId turn =
+      step.job->errand.before ? state.jobs.at(*step.job->errand.before).job->turn : step.job->turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;
@@ -77,12 +77,12 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
     follow_admitted(at, state, arm);
     const bool was_passed_there =
         way.request.beside.size() != 0 && is_as_asked(state, way, at, arm);
-    if (was_passed_there || is_found_in_the_way(state, record.job, arm)) continue;
-    for (StepId step : state.jobs.queues()[arm]) {
-      const Record& other = state.jobs.at(step);
-      const bool goes_before = other.turn < turn && !comes_to_its_end(other.job) &&
-                               other.job.knows_its_end() && !other.job.has_open_arm();
-      if (goes_before) follow_to_end(at, *state.cell, arm, *other.job.trajectory);
+    if (was_passed_there || is_found_in_the_way(state, step, arm)) continue;
+    for (StepId id : state.jobs.queues()[arm]) {
+      const Step& other = state.jobs.at(id);
+      const bool goes_before = other.job->turn < turn && !comes_to_its_end(other) &&
+                               other.knows_its_end() && !other.has_open_arm();
+      if (goes_before) follow_to_end(at, *state.cell, arm, *other.trajectory);
     }
   }
   question.at = std::move(at);
@@ -92,13 +92,13 @@ PlanQuestion question_about(const State& state, const Record& record, const Goal
 // It waits for an arm that it was not planned beside where that comes to rest: another job has
 // overtaken it, or a move aside of our own has taken that arm there. Where no way past the others
 // was found there may be one as soon as any of them is to rest elsewhere.
-bool is_to_pass_another_place(const State& state, const Record& record, const GoalWay& way,
+bool is_to_pass_another_place(const State& state, const Step& step, const GoalWay& way,
                               const Configuration& at) {
-  Configuration rest = way.goes_through ? question_about(state, record, way, at).at : at;
+  Configuration rest = way.goes_through ? question_about(state, step, way, at).at : at;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;
-    if (is_found_in_the_way(state, record.job, arm)) {
+    if (is_found_in_the_way(state, step, arm)) {
       follow_admitted(rest, state, arm);
     } else if (!way.goes_through) {
       continue;
@@ -108,40 +108,40 @@ bool is_to_pass_another_place(const State& state, const Record& record, const Go
   return false;
 }
 
-void ask(State& state, Record& record, GoalWay& way, const Configuration& at) {
-  PlanQuestion question = question_about(state, record, way, at);  // by what was found of it
-  if (std::exchange(record.job.goal->is_planned, false)) {
+void ask(State& state, Step& step, GoalWay& way, const Configuration& at) {
+  PlanQuestion question = question_about(state, step, way, at);  // by what was found of it
+  if (std::exchange(step.goal->is_planned, false)) {
     state.lanes.renew_later();
     ++state.version;
   }
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
-  send(state, record, way.request, std::move(question));
+  send(state, step, way.request, std::move(question));
 }
 
 enum class Answered {
   planned,
-  stands_in,  // something that has to go before it can be planned (Job::stands_in)
+  stands_in,  // something that has to go before it can be planned (Step::stands_in)
   refused,
   not_yet,
   not_asked,  // where its arm will be is not known before a job ahead of it is planned
 };
 
 // What is not known of the way, or is out of date, is asked.
-Answered answer_of(State& state, Record& record, GoalWay& way) {
+Answered answer_of(State& state, Step& step, GoalWay& way) {
   if (way.request.question) return Answered::not_yet;
-  const auto at = at_its_turn(state, record, way);
+  const auto at = at_its_turn(state, step, way);
   if (!at) return Answered::not_asked;
   if (fits(state, way, *at)) {
     if (!way.is_planned && !way.stands_in) return Answered::refused;
     way.request.tries = 0;
     if (way.stands_in) return Answered::stands_in;
-    if (!is_to_pass_another_place(state, record, way, *at)) return Answered::planned;
+    if (!is_to_pass_another_place(state, step, way, *at)) return Answered::planned;
   }
   if (way.request.tries < kPlansMax) {
-    if (way.request.beside.size() != 0 && way.is_planned) record.job.goal->detour.reset();
-    ask(state, record, way, *at);
+    if (way.request.beside.size() != 0 && way.is_planned) step.goal->detour.reset();
+    ask(state, step, way, *at);
     return Answered::not_yet;
   }
   way.is_planned = false;
@@ -152,14 +152,13 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
 
 // All of them; where one is planned, the job can be judged. An arm on which it cannot be planned
 // yet does not keep it from going on another one: the jobs ahead of it there may wait for this one.
-Answered answer_of(State& state, Record& record) {
-  Job& job = record.job;
-  JobGoal& goal = *job.goal;
+Answered answer_of(State& state, Step& step) {
+  JobGoal& goal = *step.goal;
   bool all = true, any_stands_in = false;
   std::optional<std::size_t> planned, not_asked;
   for (std::size_t k = 0; k < goal.ways.size(); ++k) {
-    if (!job.has_open_arm() && k != goal.taken) continue;
-    const Answered answer = answer_of(state, record, goal.ways[k]);
+    if (!step.has_open_arm() && k != goal.taken) continue;
+    const Answered answer = answer_of(state, step, goal.ways[k]);
     if (answer == Answered::not_yet) all = false;
     if (answer == Answered::not_asked && (!not_asked || k == goal.taken)) not_asked = k;
     if (answer == Answered::stands_in) any_stands_in = true;
@@ -167,10 +166,10 @@ Answered answer_of(State& state, Record& record) {
   }
   if (!all) return Answered::not_yet;
   if (not_asked && !planned && *not_asked != goal.taken)
-    take_alternative(state, record, *not_asked);  // among the jobs that it waits for
-  if (not_asked && !(planned && has_turn_on_some_arm(state, record))) return Answered::not_asked;
+    take_alternative(state, step, *not_asked);  // among the jobs that it waits for
+  if (not_asked && !(planned && has_turn_on_some_arm(state, step))) return Answered::not_asked;
   if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
-  if (job.has_open_arm() && *planned != goal.taken) take_alternative(state, record, *planned);
+  if (step.has_open_arm() && *planned != goal.taken) take_alternative(state, step, *planned);
   if (!std::exchange(goal.is_planned, true)) {
     state.lanes.renew_later();
     ++state.version;
@@ -180,40 +179,39 @@ Answered answer_of(State& state, Record& record) {
 
 // Where the first of those lead is not known: more than there are arms would be planned in vain.
 // The first job of an arm is always one of them: those ahead of it may wait for jobs behind it.
-bool is_one_of_the_first(const State& state, const Record& record, std::size_t place) {
+bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
   for (JobId id : state.jobs.undecided()) {
-    const Record& other = state.jobs.at(id);
-    const bool is_put_off = other.job.state() == JobState::backlogged;
-    if (other.job.has_open_arm() && !is_put_off && other.turn < record.turn) ++before;
+    const Step& other = state.jobs.at(id);
+    const bool is_put_off = other.state() == JobState::backlogged;
+    if (other.has_open_arm() && !is_put_off && other.job->turn < step.job->turn) ++before;
   }
   return before < state.cell->arms.size();
 }
 
 // The first of the arm's jobs that is to fail; null: none.
-Record* plan_lane(State& state, ArmId arm) {
+Step* plan_lane(State& state, ArmId arm) {
   // As they stand now: a job may be taken to go by another arm meanwhile.
   const auto queue = state.jobs.queues()[arm];
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
-    Record& record = state.jobs.at(queue[i]);
-    const Job& job = record.job;
-    if (!job.goal || job.in<Queued>() == nullptr) continue;
+    Step& step = state.jobs.at(queue[i]);
+    if (!step.goal || step.in<Queued>() == nullptr) continue;
     // What comes of it is seen when it is answered.
-    if (job.is_replanned_now()) return nullptr;
-    if (job.has_open_arm() && !is_one_of_the_first(state, record, i)) continue;
-    const Answered answer = answer_of(state, record);
-    if (answer == Answered::refused) return &record;
-    if (answer != Answered::planned && !job.has_open_arm()) return nullptr;
+    if (step.is_replanned_now()) return nullptr;
+    if (step.has_open_arm() && !is_one_of_the_first(state, step, i)) continue;
+    const Answered answer = answer_of(state, step);
+    if (answer == Answered::refused) return &step;
+    if (answer != Answered::planned && !step.has_open_arm()) return nullptr;
   }
   return nullptr;
 }
 
 // By arm, where there are several.
-std::string why_none(const State& state, const Job& job) {
-  if (!job.has_open_arm()) return *job.goal->way().refusal;
+std::string why_none(const State& state, const Step& step) {
+  if (!step.has_open_arm()) return *step.goal->way().refusal;
   std::string text;
-  for (const GoalWay& way : job.goal->ways) {
+  for (const GoalWay& way : step.goal->ways) {
     text += (text.empty() ? "" : "; ") + state.cell->arm(way.goal.arm).name + ": " + *way.refusal;
   }
   return text;
@@ -225,40 +223,40 @@ bool plan_goals(State& state) {
   bool any_failed = false;
   if (!state.jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    while (Record* record = plan_lane(state, ArmId{arm})) {
-      end(state, *record, JobState::failed, Reason::no_plan, why_none(state, record->job));
+    while (Step* step = plan_lane(state, ArmId{arm})) {
+      end(state, *step, JobState::failed, Reason::no_plan, why_none(state, *step));
       any_failed = true;
     }
   }
   return any_failed;
 }
 
-void forget_plan(State& state, Record& record) {
-  GoalWay& way = record.job.goal->way();
+void forget_plan(State& state, Step& step) {
+  GoalWay& way = step.goal->way();
   way.is_planned = false;
   way.request.beside = {};  // fits nowhere
-  record.job.goal->is_planned = false;
+  step.goal->is_planned = false;
   state.lanes.renew_later();
-  state.jobs.explain(record);
+  state.jobs.explain(step);
   ++state.version;
 }
 
-void take_goal_plan(State& state, Record& record, GoalWay& way, const PlanMade& answer) {
-  JobGoal& goal = *record.job.goal;
+void take_goal_plan(State& state, Step& step, GoalWay& way, const PlanMade& answer) {
+  JobGoal& goal = *step.goal;
   if (!answer.trajectory) {
     way.refusal = answer.why;
     way.stands_in = answer.stands_in;
-    state.jobs.explain(record);
+    state.jobs.explain(step);
     return;
   }
   way.is_planned = true;
   way.goes_through = answer.goes_through;
   WaitingLeg leg = state.arms.leg_of(*state.cell, answer.step, *answer.trajectory);
   const auto which = static_cast<std::size_t>(&way - goal.ways.data());
-  if (record.job.has_open_arm()) {
-    state.jobs.set_alternative(record, which, answer.trajectory, std::move(leg));
+  if (step.has_open_arm()) {
+    state.jobs.set_alternative(step, which, answer.trajectory, std::move(leg));
   } else if (which == goal.taken) {
-    state.jobs.set_motion(record, answer.trajectory, std::move(leg));
+    state.jobs.set_motion(step, answer.trajectory, std::move(leg));
   }
 }
 

@@ -10,9 +10,9 @@ namespace armloom {
 // condition `plan` until its path is planned. The path begins where the jobs before it leave its
 // arm, and leads around the other arms where those jobs leave them. Then it is a job like any
 // other. If the arm is undecided, a path is planned for each candidate arm, and the arm that
-// arrives first is chosen at the job's turn (waiting/choosing.h). Arms where jobs ahead of it have no
-// plan yet are left out then. Until its turn, the jobs behind it are planned as if it took another
-// arm.
+// arrives first is chosen at the job's turn (waiting/choosing.h). Arms where jobs ahead of it have
+// no plan yet are left out then. Until its turn, the jobs behind it are planned as if it took
+// another arm.
 
 // If the arm is too close to an object, no path is planned until the scene has changed. At its turn
 // the job waits for the object in the backlog, until its timeout.
@@ -26,10 +26,10 @@ inline constexpr int kPlansMax = 5;
 inline constexpr std::size_t kPlannedAhead = 16;
 
 // Discards a valid plan, so that the job is planned again.
-void forget_plan(State& state, Record& record);
+void forget_plan(State& state, Step& step);
 
 // Handles the planner's answer for one of the job's goals. If the plan is out of date, plan_goals()
 // requests another.
-void take_goal_plan(State& state, Record& record, GoalWay& way, const PlanMade& answer);
+void take_goal_plan(State& state, Step& step, GoalWay& way, const PlanMade& answer);
 
 }  // namespace armloom

@@ -9,32 +9,29 @@
 
 namespace armloom {
 
-void send(State& state, Record& record, PathRequest& request, PlanQuestion question) {
-  request.question = ++record.asking.plans;
+void send(State& state, Step& step, PathRequest& request, PlanQuestion question) {
+  request.question = ++step.asking.plans;
   request.beside = question.at;
   request.asked_at = state.version;
   ++request.tries;
-  state.decided.effects.push_back(
-      PlanMotion{record.job.step(), *request.question, std::move(question)});
+  state.decided.effects.push_back(PlanMotion{step.id, *request.question, std::move(question)});
 }
 
 void take_plan(State& state, const PlanMade& answer, WaitCycles& cycles) {
-  Record* record = state.jobs.find(answer.step);
-  if (record == nullptr || record->job.has_ended()) return;
-  Job& job = record->job;
-  if (job.goal) {
-    for (GoalWay& way : job.goal->ways) {
-      if (way.request.takes(answer.question)) return take_goal_plan(state, *record, way, answer);
+  Step* step = state.jobs.find(answer.step);
+  if (step == nullptr || step->has_ended()) return;
+  if (step->goal) {
+    for (GoalWay& way : step->goal->ways) {
+      if (way.request.takes(answer.question)) return take_goal_plan(state, *step, way, answer);
     }
-    auto& detour = job.goal->detour;
-    if (detour && detour->request.takes(answer.question))
-      return take_detour(state, *record, answer);
+    auto& detour = step->goal->detour;
+    if (detour && detour->request.takes(answer.question)) return take_detour(state, *step, answer);
   }
-  if (job.another_way && job.another_way->request.takes(answer.question)) {
-    if (take_other_way(state, *record, answer)) cycles.has_opened(state, job.id);
+  if (step->another_way && step->another_way->request.takes(answer.question)) {
+    if (take_other_way(state, *step, answer)) cycles.has_opened(state, step->id.job);
     return;
   }
-  for (auto& [arm, tried] : record->yields) {
+  for (auto& [arm, tried] : step->yields) {
     if (tried.planned.request.takes(answer.question))
       return take_way_aside(state, arm, tried, answer);
   }

@@ -5,17 +5,16 @@
 
 namespace armloom {
 void ask_for_way_aside(State& state, const YieldTrial& move) {
-  Record& record = state.jobs.at(move.blocked_job);
-  YieldsTried& tried = record.yields[move.arm];
+  Step& step = state.jobs.at(move.blocked_job);
+  YieldsTried& tried = step.yields[move.arm];
   if (tried.planned.request.question) return;
   tried.from = state.arms.came_by(move.arm);
   tried.next = move.index;
   tried.planned = {};
-  const Job& job = record.job;
-  send(state, record, tried.planned.request,
-       {.goal = {.arm = move.arm, .to = ClearOf{job.trajectory, job.progress}},
+  send(state, step, tried.planned.request,
+       {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
         .at = rest_after_admitted(state),
-        .seed = job.id.value()});
+        .seed = step.id.job.value()});
 }
 
 void take_way_aside(const State& state, ArmId arm, YieldsTried& tried, const PlanMade& answer) {

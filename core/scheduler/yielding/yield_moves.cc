@@ -97,23 +97,23 @@ bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
 
 // A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
 // was to help a job that has ended.
-std::optional<YieldTrial> untried(const State& state, const Record& record, ArmId arm) {
+std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId arm) {
   if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report ||
       state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
-  if (!state.jobs.is_active(record.errand.on_behalf_of)) return std::nullopt;
+  if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return std::nullopt;
   static const YieldsTried kUntried;
-  const auto tried_for = [arm](const Record& job) -> const YieldsTried& {
-    const auto found = job.yields.find(arm);
-    return found == job.yields.end() ? kUntried : found->second;
+  const auto tried_for = [arm](const Step& one) -> const YieldsTried& {
+    const auto found = one.yields.find(arm);
+    return found == one.yields.end() ? kUntried : found->second;
   };
-  const YieldsTried& tried = tried_for(record);
-  const YieldsTried& of_all = tried_for(state.jobs.at(record.errand.on_behalf_of));
+  const YieldsTried& tried = tried_for(step);
+  const YieldsTried& of_all = tried_for(state.jobs.at(step.job->errand.on_behalf_of));
   if (of_all.total >= kYieldsMax) return std::nullopt;
   const TrajectoryPtr& came_by = state.arms.came_by(arm);
   const auto ways = ways_aside(*state.cell, arm, state.arms.rest(), came_by);
-  YieldTrial trial{.blocked_job = record.job.id, .arm = arm, .way = nullptr};
+  YieldTrial trial{.blocked_job = step.id.job, .arm = arm, .way = nullptr};
   const bool is_there_still = tried.from == came_by;
   for (trial.index = is_there_still ? tried.next : 0; trial.index < ways.size(); ++trial.index) {
     trial.way = ways[trial.index];
@@ -127,16 +127,16 @@ std::optional<YieldTrial> untried(const State& state, const Record& record, ArmI
   return goes ? std::optional(trial) : std::nullopt;
 }
 
-const std::vector<Wait>& waits_of(const Job& job) {
-  return job.is_waiting() ? job.judgement().found : job.waits_on;
+const std::vector<Wait>& waits_of(const Step& step) {
+  return step.is_waiting() ? step.judgement().found : step.waits_on;
 }
 
-void tell_of_way_aside(State& state, Record& record, ArmId arm, bool has_none) {
-  auto* queued = std::get_if<Queued>(&record.job.phase);
+void tell_of_way_aside(State& state, Step& step, ArmId arm, bool has_none) {
+  auto* queued = std::get_if<Queued>(&step.phase);
   if (queued == nullptr || !queued->in_backlog) return;
   for (Wait& wait : queued->judgement.found)
     if (wait.kind == Wait::Kind::arm && wait.arm == arm) wait.has_no_way_aside = has_none;
-  state.jobs.set_waits(record, queued->judgement.found);
+  state.jobs.set_waits(step, queued->judgement.found);
 }
 
 }  // namespace
@@ -144,15 +144,14 @@ void tell_of_way_aside(State& state, Record& record, ArmId arm, bool has_none) {
 std::optional<YieldTrial> next_yield(State& state) {
   if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
   for (JobId id : state.jobs.past_queue()) {
-    Record& record = state.jobs.at(id);
-    const Job& job = record.job;
-    const std::vector<Wait>* waits = known_waits(state, job);
-    if (waits == nullptr || job.is_replanned_now()) continue;  // perhaps it passes
+    Step& step = state.jobs.at(id);
+    const std::vector<Wait>* waits = known_waits(state, step);
+    if (waits == nullptr || step.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : *waits) {
       if (!is_idle_arm(state, wait)) continue;
-      auto move = untried(state, record, *wait.arm);
+      auto move = untried(state, step, *wait.arm);
       const bool has_none = !move && !state.arms.is_stopped(*wait.arm);
-      if (has_none != wait.has_no_way_aside) tell_of_way_aside(state, record, *wait.arm, has_none);
+      if (has_none != wait.has_no_way_aside) tell_of_way_aside(state, step, *wait.arm, has_none);
       if (move) return move;
     }
   }
@@ -161,24 +160,24 @@ std::optional<YieldTrial> next_yield(State& state) {
 
 std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
   const bool dispensable = std::ranges::any_of(ring, [&](JobId id) {
-    const Record& record = state.jobs.at(id);
-    return record.job.system_job && !is_counted_on(state, record);
+    const Step& step = state.jobs.at(id);
+    return step.job->system_job && !is_counted_on(state, step);
   });
   if (dispensable) return std::nullopt;
   const WaitCycle from_last = beginning_with(*std::ranges::max_element(ring), ring);
   for (std::size_t i = 0; i < from_last.size(); ++i) {
-    const Job& next = state.jobs.at(from_last[i]).job;
-    const Record& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
-    const bool may_go_later = !next.system_job || approached_job(state, next.id);
+    const Step& next = state.jobs.at(from_last[i]);
+    const Step& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
+    const bool may_go_later = !next.job->system_job || approached_job(state, next.id.job);
     if (!next.is_waiting() || next.has_started() || !may_go_later) continue;
-    for (const Wait& wait : waits_of(waits.job)) {
+    for (const Wait& wait : waits_of(waits)) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
       const auto& queue = state.jobs.queues()[*wait.arm];
-      if (queue.empty() || queue.front() != next.step()) continue;
+      if (queue.empty() || queue.front() != next.id) continue;
       auto move = untried(state, waits, *wait.arm);
       if (!move) continue;
-      move->before = next.id;
+      move->before = next.id.job;
       return move;
     }
   }
@@ -208,7 +207,7 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
     const auto& queue = state.jobs.queues()[arm];
     if (queue.empty()) return false;  // it may go aside too
     return queue.front().job == move.blocked_job ||
-           (move.before && state.jobs.at(queue.front()).job.is_waiting());
+           (move.before && state.jobs.at(queue.front()).is_waiting());
   };
   for (const Conflict& conflict : verdict.conflicts) {
     if (conflict.with == Conflict::With::motion) continue;
@@ -219,32 +218,30 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
     const auto* arm = std::get_if<ArmId>(&pair.b);
     if (arm != nullptr) return stays(*arm);
     const bool of_it = !move.is_free && std::get<StepId>(pair.b).job == move.blocked_job;
-    return of_it &&
-           rests_in(pair, state.jobs.at(move.blocked_job).job.progress, move.way->duration());
+    return of_it && rests_in(pair, state.jobs.at(move.blocked_job).progress, move.way->duration());
   });
 }
 
 void note_tried(State& state, const YieldTrial& move, bool goes) {
-  Record& record = state.jobs.at(move.blocked_job);
-  YieldsTried& tried = record.yields[move.arm];
+  Step& step = state.jobs.at(move.blocked_job);
+  YieldsTried& tried = step.yields[move.arm];
   tried.from = state.arms.came_by(move.arm);
   tried.next = move.index + 1;
-  if (!state.jobs.is_active(record.errand.on_behalf_of)) return;
-  YieldsTried& of_all = state.jobs.at(record.errand.on_behalf_of).yields[move.arm];
+  if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return;
+  YieldsTried& of_all = state.jobs.at(step.job->errand.on_behalf_of).yields[move.arm];
   ++of_all.total;
   if (goes) of_all.went_to.push_back(move.way->goal());
 }
 
-bool is_counted_on(const State& state, const Record& own) {
-  const ArmId arm = own.job.trajectory->arms().front();
+bool is_counted_on(const State& state, const Step& own) {
+  const ArmId arm = own.trajectory->arms().front();
   const auto& queue = state.jobs.queues()[arm];
-  const auto of_a_client = [&](StepId step) { return !state.jobs.at(step).job.system_job; };
-  const auto next =
-      std::find_if(std::ranges::find(queue, own.job.step()), queue.end(), of_a_client);
+  const auto of_a_client = [&](StepId step) { return !state.jobs.at(step).job->system_job; };
+  const auto next = std::find_if(std::ranges::find(queue, own.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
-  if (state.jobs.at(*next).job.goal) return false;  // begins wherever the arm stands
-  if (own.job.has_started()) return true;
-  return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).job.trajectory, arm)
+  if (state.jobs.at(*next).goal) return false;  // begins wherever the arm stands
+  if (own.has_started()) return true;
+  return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).trajectory, arm)
       .has_value();
 }
 

@@ -41,6 +41,6 @@ void note_tried(State& state, const YieldTrial& move, bool goes);
 
 // Returns true if the arm's next client job relies on `own`, a job of the server: the job begins
 // where `own` brings the arm. False for a job with a goal, which begins anywhere.
-[[nodiscard]] bool is_counted_on(const State& state, const Record& own);
+[[nodiscard]] bool is_counted_on(const State& state, const Step& own);
 
 }  // namespace armloom

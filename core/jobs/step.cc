@@ -1,13 +1,13 @@
-#include "core/jobs/job.h"
+#include "core/jobs/step.h"
 
 namespace armloom {
 
-void Job::note_start(TimePoint now) {
+void Step::note_start(TimePoint now) {
   if (!times.motion_started_at) times.motion_started_at = now;
   if (!times.started_at) times.started_at = now;
 }
 
-JobState Job::state() const {
+JobState Step::state() const {
   if (const auto* queued = in<Queued>()) {
     return queued->in_backlog ? JobState::backlogged : JobState::queued;
   }
@@ -18,14 +18,14 @@ JobState Job::state() const {
   return moving != nullptr && moving->is_under_way ? JobState::running : JobState::scheduled;
 }
 
-bool Job::pausing() const {
+bool Step::pausing() const {
   if (const auto* admitted = in<Admitted>()) return admitted->pause.has_value();
   if (const auto* moving = in<Moving>()) return moving->pause.has_value();
   const auto* braking = in<Braking>();
   return braking != nullptr && braking->paused;
 }
 
-const GoalWay* Job::stands_in() const {
+const GoalWay* Step::stands_in() const {
   if (!is_unplanned()) return nullptr;
   const GoalWay* first = nullptr;
   for (std::size_t k = 0; k < goal->ways.size(); ++k) {
@@ -37,17 +37,17 @@ const GoalWay* Job::stands_in() const {
   return first;
 }
 
-std::optional<Reason> Job::reason() const {
+std::optional<Reason> Step::reason() const {
   const auto* ended = in<Ended>();
   return ended != nullptr ? std::optional(ended->reason) : std::nullopt;
 }
 
-std::string Job::detail() const {
+std::string Step::detail() const {
   const auto* ended = in<Ended>();
   return ended != nullptr ? ended->detail : std::string();
 }
 
-std::optional<TimePoint> Job::ended_at() const {
+std::optional<TimePoint> Step::ended_at() const {
   const auto* ended = in<Ended>();
   return ended != nullptr ? std::optional(ended->at) : std::nullopt;
 }
