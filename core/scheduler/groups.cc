@@ -80,7 +80,7 @@ bool follow_each_other(const State& state, const std::vector<StepId>& steps) {
 
 std::vector<StepId> with_next_jobs(const State& state, std::vector<StepId> group,
                                    const std::vector<ArmId>& in_the_way) {
-  if (!state.policy->admits_groups()) return group;
+  if (!state.policy->lookahead.admits_groups) return group;
   const auto goes = [&](StepId step) { return state.graph.holds(step) || contains(group, step); };
   const auto next_of = [&](ArmId arm) {
     const auto& queue = state.jobs.queues()[arm];

@@ -12,7 +12,7 @@ namespace armloom {
 namespace {
 
 bool has_no_orders(const State& state) {
-  return std::holds_alternative<TimedDiscrete>(state.policy->method());
+  return std::holds_alternative<TimedDiscrete>(state.policy->method);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
 
@@ -27,7 +28,7 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
   if (!queue.empty() && queue.front() == record.job.step()) return true;
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.step());
-  const std::size_t horizon = ahead ? state.policy->horizon() : 1;
+  const std::size_t horizon = ahead ? state.policy->lookahead.horizon : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
     if (queue[place] == record.job.step()) {
       return !holds_one_ahead(state, record) && !others_may_take_its_turn(state, record);
@@ -116,15 +117,15 @@ Closed stop(const Turns& turns, const Record& record) {
 }
 
 Closed place(const Turns& turns, const Record& record) {
-  const auto taken_by = turns.state().policy->place_taken_by(turns.state(), record);
+  const auto taken_by = place_taken_by(turns.state(), record);
   if (!taken_by) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
 // A round lets others in by itself while all of it stands: there a place is never part of a cycle.
 void add_place(const State& state, const Record& record, Edges& edges) {
-  if (!record.job.is_waiting() || state.policy->opens_places()) return;
-  const auto taken_by = state.policy->place_taken_by(state, record);
+  if (!record.job.is_waiting() || has_rounds(state)) return;
+  const auto taken_by = place_taken_by(state, record);
   if (taken_by && stands(state, state.jobs.at(*taken_by))) {
     edges.push_back({record.job.id, *taken_by});
   }
@@ -143,8 +144,7 @@ bool may_go(const State& state, const Record& record) {
   if (!stands(state, record)) return true;
   return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
          job.after.empty() && !lets_another_pass(state.jobs, record) &&
-         !operator_wait(state, job) && !state.policy->place_taken_by(state, record) &&
-         !any_is_aged(state);
+         !operator_wait(state, job) && !place_taken_by(state, record) && !any_is_aged(state);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest

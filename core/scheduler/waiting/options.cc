@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
 
 namespace armloom {
 namespace {
@@ -67,7 +68,7 @@ When when_on(const State& state, const Record& record, const Trajectory& traject
                           ? begins_at(*state.cell, trajectory, *leads_to)
                           : !state.arms.begins_elsewhere(*state.cell, trajectory).has_value();
   if (!begins) return When::never;
-  return is_next && admitted < state.policy->horizon() ? When::now : When::later;
+  return is_next && admitted < state.policy->lookahead.horizon ? When::now : When::later;
 }
 
 std::vector<Option> on_several_arms(const State& state, const Record& record) {
@@ -219,10 +220,7 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
   }
   state.jobs.put_in_order(jobs);
   state.lanes.renew_later();
-  auto& round = state.round.jobs;
-  for (const Option& option : options) {
-    if (round.erase(option.job) > 0) round.insert(jobs.front());
-  }
+  give_place_to_first(state, jobs);
 }
 
 void reopen_turn(State& state, const Record& added) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/jobs/standing.h"
-#include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/priority_inheritance.h"
@@ -68,17 +68,16 @@ std::vector<JobId> to_explain(State& state) {
 }  // namespace
 
 bool any_is_aged(const State& state) {
-  return state.policy->lets_jobs_age() &&
-         std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
-           return !queue.empty() && is_aged(state, state.jobs.at(queue.front()));
-         });
+  return !has_rounds(state) && std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
+    return !queue.empty() && is_aged(state, state.jobs.at(queue.front()));
+  });
 }
 
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
 
 std::vector<Turns::Aged> Turns::aged_jobs() const {
   std::vector<Aged> aged;
-  if (!state_.policy->lets_jobs_age()) return aged;
+  if (has_rounds(state_)) return aged;
   const JobBook& jobs = state_.jobs;
   for (const auto& queue : jobs.queues()) {
     if (queue.empty() || !is_aged(state_, jobs.at(queue.front()))) continue;
