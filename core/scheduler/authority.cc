@@ -8,6 +8,7 @@
 #include "core/jobs/waits.h"
 #include "core/model/promises.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -28,12 +29,13 @@ void pause_at_rest(State& state, Record& record) {
 
 void dispatch_if_ready(State& state, Record& record) {
   Job& job = record.job;
-  if (!is_at_head(state.jobs, record)) return;
+  const auto closed = first_closed(state, record, blocks_start);
+  if (closed && !is_ended_by_client(closed->gate)) return;
   if (!record.ages_from) record.ages_from = {state.now, state.clock()};
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }
-  if (auto wait = operator_wait(state, job)) return state.jobs.set_wait(record, *wait);
+  if (closed) return state.jobs.set_waits(record, closed->waits.all());
   if (record.asking.is_in_question) return;
   const Duration limit = state.graph.limit(job.step());
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {

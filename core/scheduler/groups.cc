@@ -5,6 +5,7 @@
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -27,11 +28,14 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<StepId>& gro
   return jobs;
 }
 
-// It could go when those before it on its arms have gone.
+// Returns true if the job could be admitted together with the jobs before it on its arms.
 bool may_follow(const State& state, const Record& record) {
-  return record.job.is_waiting() && !record.job.is_unplanned() && record.job.after.empty() &&
-         !lets_another_pass(state.jobs, record) && !operator_wait(state, record.job) &&
-         state.lanes.follows_on(record.job.step()) && !holds_one_ahead(state, record);
+  const auto blocks_group = [](const Gate& gate) {
+    return blocks_start(gate) && gate.ended_by != EndedBy::queue;
+  };
+  return record.job.is_waiting() && !record.job.is_unplanned() &&
+         !first_closed(state, record, blocks_group) && state.lanes.follows_on(record.job.step()) &&
+         !holds_one_ahead(state, record);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/jobs/standing.h"
 #include "core/model/promises.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -23,7 +24,8 @@ void compare_again(State& state) {
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     record.asking.is_in_question = true;
-    const bool is_kept = record.job.in<Admitted>() != nullptr && operator_wait(state, record.job);
+    const bool is_kept =
+        record.job.in<Admitted>() != nullptr && first_closed(state, record, is_ended_by_client);
     if (is_kept) withdraw(state, record, {});
   }
   ++state.version;

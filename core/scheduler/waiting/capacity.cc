@@ -4,16 +4,18 @@
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
 
-// Waits for something else of the round, or for an arm that has no job in it, or for an open arm.
+// Returns true if the job waits for other jobs, or for an arm that only another job moves away.
 bool stands_in_vain(const State& state, const Record& record) {
-  const bool tried =
-      record.job.is_waiting() && (state.is_judged(record.job) || !is_at_head(state.jobs, record) ||
-                                  may_go_first(state, record).has_value());
-  return tried || held_where_it_stands(state, record).has_value();
+  const auto ended_by_jobs = [](const Gate& gate) {
+    return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::client;
+  };
+  return record.job.is_waiting() ? first_closed(state, record, ended_by_jobs).has_value()
+                                 : held_where_it_stands(state, record).has_value();
 }
 
 }  // namespace
@@ -41,6 +43,7 @@ void renew_round(State& state) {
   if (!has_rounds(state)) return;
   Round& round = state.round;
   const JobBook& book = state.jobs;
+  const auto blocks_place = [](const Gate& gate) { return gate.blocks >= Blocks::place; };
   std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
   for (const auto& queue : book.queues()) {
     for (const StepId step : queue) {
@@ -58,8 +61,7 @@ void renew_round(State& state) {
     if (queue.empty()) continue;
     const Record& record = book.at(queue.front());
     const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                      is_at_head(book, record) && !operator_wait(state, record.job) &&
-                      !may_go_first(state, record);
+                      !first_closed(state, record, blocks_place);
     if (goes) round.jobs.insert(record.job.id);
   }
 }

@@ -14,20 +14,22 @@
 namespace armloom {
 namespace {
 
-using Closed = std::optional<FoundWaits>;  // nothing: open
+using Closed = std::optional<FoundWaits>;
 using Edges = std::vector<WaitsForEdge>;
 
 Closed order(JobId first, std::optional<ArmId> arm = {}) {
   return FoundWaits(Wait{.kind = Wait::Kind::predecessor, .job = first, .arm = arm});
 }
 
-// It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
-// admitted. Of an admitted one all others would have to have ended; and of one in whose place
-// another could go: which of them does is left open until one must.
-bool is_next(const State& state, const Record& record, ArmId arm) {
+// Returns true if the job is the first of the arm. With turns also if it is one of the arm's first
+// jobs, as many as the policy looks ahead, and all before it are admitted. If another job could
+// take its turn, it is not admitted ahead, so that this choice stays open.
+bool is_next(const Look& look, const Record& record, ArmId arm) {
+  const State& state = look.state;
   const auto& queue = state.jobs.queues()[arm];
   if (!queue.empty() && queue.front() == record.job.step()) return true;
-  const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.step());
+  const bool ahead =
+      look.turns != nullptr && record.job.is_waiting() && state.lanes.follows_on(record.job.step());
   const std::size_t horizon = ahead ? state.policy->lookahead.horizon : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
     if (queue[place] == record.job.step()) {
@@ -38,11 +40,10 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
   return false;
 }
 
-// Which job stands before it, on the first of its arms where one does and has to go first.
-Closed behind(const Turns& turns, const Record& record) {
+Closed behind(const Look& look, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
-    if (is_next(turns.state(), record, arm)) continue;
-    return order(turns.state().jobs.queues().before(record.job, arm)->job, arm);
+    if (is_next(look, record, arm)) continue;
+    return order(look.state.jobs.queues().before(record.job, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -70,8 +71,8 @@ void add_behind(const State& state, const Record& record, Edges& edges,
   }
 }
 
-Closed open_arm(const Turns& turns, const Record& record) {
-  const auto first = may_go_first(turns.state(), record);
+Closed open_arm(const Look& look, const Record& record) {
+  const auto first = may_go_first(look.state, record);
   return first ? order(*first) : std::nullopt;
 }
 
@@ -80,7 +81,7 @@ void add_open_arm(const State& state, const Record& record, Edges& edges) {
   if (const auto first = may_go_first(state, record)) edges.push_back({record.job.id, *first});
 }
 
-Closed after(const Turns&, const Record& record) {
+Closed after(const Look&, const Record& record) {
   if (record.job.after.empty()) return std::nullopt;
   return order(record.job.after.front());
 }
@@ -91,7 +92,7 @@ void add_after(const State& state, const Record& record, Edges& edges) {
   }
 }
 
-Closed plan(const Turns&, const Record& record) {
+Closed plan(const Look&, const Record& record) {
   const Job& job = record.job;
   const bool is_unplanned = job.is_unplanned() && job.stands_in() == nullptr;
   const bool is_asked = is_unplanned || job.is_replanned_now() || job.is_detour_asked() ||
@@ -100,8 +101,8 @@ Closed plan(const Turns&, const Record& record) {
   return FoundWaits(Wait{.kind = Wait::Kind::plan});
 }
 
-Closed lets_pass(const Turns& turns, const Record& record) {
-  if (!lets_another_pass(turns.state().jobs, record)) return std::nullopt;
+Closed lets_pass(const Look& look, const Record& record) {
+  if (!lets_another_pass(look.state.jobs, record)) return std::nullopt;
   return order(*record.errand.lets_pass);
 }
 
@@ -110,14 +111,14 @@ void add_lets_pass(const State& state, const Record& record, Edges& edges) {
     edges.push_back({record.job.id, *record.errand.lets_pass});
 }
 
-Closed stop(const Turns& turns, const Record& record) {
-  auto wait = operator_wait(turns.state(), record.job);
+Closed stop(const Look& look, const Record& record) {
+  auto wait = operator_wait(look.state, record.job);
   if (!wait) return std::nullopt;
   return FoundWaits(std::move(*wait));
 }
 
-Closed place(const Turns& turns, const Record& record) {
-  const auto taken_by = place_taken_by(turns.state(), record);
+Closed place(const Look& look, const Record& record) {
+  const auto taken_by = place_taken_by(look.state, record);
   if (!taken_by) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
@@ -131,20 +132,19 @@ void add_place(const State& state, const Record& record, Edges& edges) {
   }
 }
 
-Closed conflict(const Turns& turns, const Record& record) {
+Closed conflict(const Look& look, const Record& record) {
   if (!record.job.is_waiting()) return std::nullopt;
-  if (!turns.state().is_judged(record.job)) return std::nullopt;
+  if (!look.state.is_judged(record.job)) return std::nullopt;
   return FoundWaits(record.job.judgement().found);
 }
 
-// It may be about to go: nothing is known to stand against it, and nobody has waited so long that
-// it would hold others back.
+// Returns true if the job moves, or could move next although no other job moves first.
 bool may_go(const State& state, const Record& record) {
-  const Job& job = record.job;
+  const auto stays = [](const Gate& gate) {
+    return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::choice;
+  };
   if (!stands(state, record)) return true;
-  return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
-         job.after.empty() && !lets_another_pass(state.jobs, record) &&
-         !operator_wait(state, job) && !place_taken_by(state, record) && !any_is_aged(state);
+  return record.job.is_waiting() && !first_closed(state, record, stays);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
@@ -173,10 +173,11 @@ void add_conflict(const State& state, const Record& record, Edges& edges) {
   }
 }
 
-Closed aging(const Turns& turns, const Record& record) {
-  const auto old = turns.held_back_by(record);
+// Without turns it is not known which jobs an aged job holds back: then all.
+Closed aging(const Look& look, const Record& record) {
+  const auto old = look.turns != nullptr ? look.turns->held_back_by(record) : any_aged(look.state);
   if (!old) return std::nullopt;
-  const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old).job);
+  const bool may_go = !look.state.is_judged(look.state.jobs.at(*old).job);
   if (!may_go || !record.job.is_waiting() || record.job.judgement().found.empty()) {
     return FoundWaits(Wait{.kind = Wait::Kind::predecessor,
                            .job = *old,
@@ -185,28 +186,27 @@ Closed aging(const Turns& turns, const Record& record) {
   return FoundWaits(record.job.judgement().found);  // the older one may be about to go
 }
 
-struct Gate {
-  GateKind kind;
-  Closed (*closed)(const Turns&, const Record&);
-  // Adds whom this makes a job that stands wait for. Null if the gate opens without another job:
-  //   plan   the planner answers
-  //   stop   an operator resumes the arm, or raises its speed override
-  //   aging  the older job, and all that goes first for it, is held back by nobody younger
-  void (*edges)(const State&, const Record&, Edges&) = nullptr;
-  // Is passed by a job that has its turn on another arm (Submit::alternatives).
-  bool of_its_arm = false;
-};
-
+// In the order in which they are checked. Three have no edges: the planner answers; an operator
+// acts; nobody younger holds back an aged job or the jobs that must precede it.
 constexpr Gate kGates[] = {
-    {GateKind::behind, behind, nullptr, true},  // edges: add_behind(), queue by queue
-    {GateKind::open_arm, open_arm, add_open_arm},
-    {GateKind::after, after, add_after},
-    {GateKind::plan, plan},
-    {GateKind::lets_pass, lets_pass, add_lets_pass},
-    {GateKind::stop, stop, nullptr, true},
-    {GateKind::place, place, add_place},
-    {GateKind::conflict, conflict, add_conflict},
-    {GateKind::aging, aging},
+    // another job of its arm precedes it; edges: add_behind(), queue by queue
+    {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
+    // a job with an undecided arm could bring this job's arm to its start
+    {open_arm, add_open_arm, EndedBy::choice, Blocks::place},
+    // a job in `after` has not ended
+    {after, add_after, EndedBy::job, Blocks::start},
+    // a path of the job is being planned, or its move to start is being checked
+    {plan, nullptr, EndedBy::planner, Blocks::check},
+    // its arm has retreated and first lets another job pass
+    {lets_pass, add_lets_pass, EndedBy::job, Blocks::start},
+    // one of its arms is stopped
+    {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
+    // the policy allows no further job at the same time
+    {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},
+    // checked and not admitted; put_off() starts its age
+    {conflict, add_conflict, EndedBy::job, Blocks::check},
+    // an aged job goes first
+    {aging, nullptr, EndedBy::job, Blocks::check},
 };
 
 void add_gates(const State& state, const Record& record, Edges& edges) {
@@ -221,7 +221,17 @@ std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record) 
   const bool has_turn = has_turn_on_some_arm(turns.state(), record);
   for (const Gate& gate : kGates) {
     if (gate.of_its_arm && has_turn) continue;
-    if (auto waits = gate.closed(turns, record)) return ClosedGate{gate.kind, std::move(*waits)};
+    auto waits = gate.closed({turns.state(), &turns}, record);
+    if (waits) return ClosedGate{gate, std::move(*waits)};
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedGate> first_closed(const State& state, const Record& record,
+                                       bool (*counts)(const Gate&)) {
+  for (const Gate& gate : kGates) {
+    if (!counts(gate)) continue;
+    if (auto waits = gate.closed({state}, record)) return ClosedGate{gate, std::move(*waits)};
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 
 #include "core/policies/policy.h"
 #include "core/scheduler/waiting/capacity.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -17,11 +18,12 @@ bool is_loop(const Record& record) {
   return record.leg.arms.size() == 1 && record.leg.from == record.leg.to;
 }
 
-// One that several arms could do has no place on any of them yet that it could change.
-bool may_change_places(const Record& record) {
+// A job with several candidate arms has no place yet that it could change. What blocks the start of
+// one job, but not of all jobs of its arm, ties the job to its place.
+bool may_change_places(const State& state, const Record& record) {
+  const auto ties = [](const Gate& gate) { return blocks_start(gate) && !gate.of_its_arm; };
   return record.job.terms.reorderable && record.job.in<Queued>() != nullptr &&
-         record.job.alternatives.empty() && is_loop(record) && record.job.after.empty() &&
-         !record.errand.before && !record.errand.lets_pass;
+         record.job.alternatives.empty() && is_loop(record) && !first_closed(state, record, ties);
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {
@@ -31,12 +33,12 @@ bool is_overtaken_no_more(const State& state, const Record& record) {
 
 std::vector<Option> in_any_order(const State& state, const Record& turn) {
   std::vector<Option> options{{turn.job.id}};
-  if (!may_change_places(turn) || is_overtaken_no_more(state, turn)) return options;
+  if (!may_change_places(state, turn) || is_overtaken_no_more(state, turn)) return options;
   const auto& queue = state.jobs.queues()[turn.leg.arms.front()];
   const auto own = std::ranges::find(queue, turn.job.step());
   for (auto step = own + 1; step != queue.end(); ++step) {
     const Record& other = state.jobs.at(*step);
-    const bool fits = may_change_places(other) &&
+    const bool fits = may_change_places(state, other) &&
                       other.job.terms.priority == turn.job.terms.priority &&
                       other.leg.from == turn.leg.from;
     if (!fits || options.size() >= kOptionsMax) break;
@@ -224,7 +226,7 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
 }
 
 void reopen_turn(State& state, const Record& added) {
-  if (!may_change_places(added)) return;
+  if (!may_change_places(state, added)) return;
   const auto& queue = state.jobs.queues()[added.leg.arms.front()];
   const auto waits = [&](StepId step) { return state.jobs.at(step).job.is_waiting(); };
   Record& first = state.jobs.at(*std::ranges::find_if(queue, waits));

@@ -16,15 +16,16 @@ namespace {
 
 bool is_aged(const State& state, const Record& record) {
   return record.job.in<Queued>() != nullptr && state.has_aged(record) &&
-         is_at_head(state.jobs, record) && !operator_wait(state, record.job);
+         !first_closed(state, record, blocks_start);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
 // stop, a ring.
 bool waits_beyond_turns(const State& state, const Record& record) {
   if (!record.job.ring.empty()) return true;
-  if (!is_at_head(state.jobs, record)) return false;
-  if (operator_wait(state, record.job)) return true;
+  if (const auto closed = first_closed(state, record, blocks_start)) {
+    return is_ended_by_client(closed->gate);
+  }
   if (!record.job.is_waiting() || !state.is_judged(record.job)) return false;
   return std::ranges::any_of(record.job.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
@@ -67,10 +68,12 @@ std::vector<JobId> to_explain(State& state) {
 
 }  // namespace
 
-bool any_is_aged(const State& state) {
-  return !has_rounds(state) && std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
-    return !queue.empty() && is_aged(state, state.jobs.at(queue.front()));
-  });
+std::optional<JobId> any_aged(const State& state) {
+  if (has_rounds(state)) return std::nullopt;
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty() && is_aged(state, state.jobs.at(queue.front()))) return queue.front().job;
+  }
+  return std::nullopt;
 }
 
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
@@ -165,19 +168,17 @@ Turns explain_waits(State& state) {
     Record& record = state.jobs.at(id);
     const bool waits = record.job.is_waiting();
     if (!waits && record.job.in<Admitted>() == nullptr) continue;
-    const auto closed = closed_gate(turns, record);
+    const auto closed =
+        waits ? closed_gate(turns, record) : first_closed(state, record, blocks_start);
     turns.has_found(id, closed.has_value());
-    if (!waits) {  // it is admitted: only what is before it on its arms counts
-      if (closed && closed->kind == GateKind::behind) {
-        state.jobs.set_waits(record, closed->waits.all());
-      }
-      continue;
-    }
-    if (closed && closed->kind == GateKind::place && !record.ages_from) {
+    if (closed && closed->gate.starts_age && !record.ages_from) {
       record.ages_from = {state.now, state.clock()};
     }
-    // An open job is about to be judged: until then it waits for what was found the last time.
-    state.jobs.set_waits(record, closed ? closed->waits.all() : record.job.judgement().found);
+    if (closed) {
+      state.jobs.set_waits(record, closed->waits.all());
+    } else if (waits) {  // is checked next; until then it waits for what its last check found
+      state.jobs.set_waits(record, record.job.judgement().found);
+    }
   }
   return turns;
 }
