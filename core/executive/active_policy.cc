@@ -8,7 +8,7 @@
 namespace armloom {
 
 std::string Executive::ActivePolicy::name() const {
-  return std::string(executive_.scheduler_.policy().name());
+  return std::string(executive_.scheduler_.policy().name);
 }
 
 Result<void> Executive::ActivePolicy::change(const std::string& name) {

@@ -114,7 +114,7 @@ TrajectoryPtr Executive::trajectory(const std::string& key) const {
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
   const Scheduler& scheduler = impl_->scheduler_;
-  return {scheduler.timeline(impl_->clock_.now), scheduler.policy().horizon(),
+  return {scheduler.timeline(impl_->clock_.now), scheduler.policy().lookahead.horizon,
           impl_->publisher_.board()->read()};
 }
 TimePoint Executive::now() const { return impl_->clock_.now; }

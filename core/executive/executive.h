@@ -60,7 +60,7 @@ class JudgementService {
   [[nodiscard]] virtual bool draft(PlanTask task) = 0;
 };
 
-class Policy;
+struct Policy;
 
 // Receives everything that happens. Called on the strand; must not block.
 class Observer {

@@ -265,11 +265,11 @@ void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
 // ---- The guard ----
 
 void Executive::Impl::follow_policy() {
-  const CheckMethod method = scheduler_.policy().method();
+  const CheckMethod method = scheduler_.policy().method;
   const bool certified = !std::holds_alternative<TimedDiscrete>(method);
   execution_.gate().set_certified(certified);
   if (certified) return;
-  publisher_.tell(Alert{Alert::Level::info, "policy " + std::string(scheduler_.policy().name()) +
+  publisher_.tell(Alert{Alert::Level::info, "policy " + std::string(scheduler_.policy().name) +
                                                 ": no certificates; the authority guard is off"},
                   clock_.now);
 }

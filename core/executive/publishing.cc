@@ -186,7 +186,7 @@ void Publisher::look_at_arms() {
 void Publisher::publish(TimePoint now) {
   board_->publish({.seq = seq_,
                    .time = now,
-                   .policy = shown_.scheduler.policy().name(),
+                   .policy = shown_.scheduler.policy().name,
                    .stopped = all_stopped(),
                    .speed_override = shown_.scheduler.speed().cell(),
                    .jobs = jobs_.share(),
@@ -208,7 +208,7 @@ void Publisher::forget(JobId job, const std::string& key) {
 
 const QueueView& Publisher::queue() {
   QueueView& view = lists_.view();
-  view.policy = shown_.scheduler.policy().name();
+  view.policy = shown_.scheduler.policy().name;
   view.stopped = all_stopped();
   view.speed_override = shown_.scheduler.speed().cell();
   return view;

@@ -19,7 +19,7 @@
 
 namespace armloom {
 
-class Policy;
+struct Policy;
 
 // ---- Inputs: everything that can happen to the scheduler. step() takes the time separately. ----
 

@@ -16,7 +16,7 @@
 
 namespace armloom {
 
-class Policy;
+struct Policy;
 
 // The jobs of the present round; empty under policies without rounds.
 struct Round {

@@ -1,28 +1,42 @@
 #include "core/policies/policy.h"
 
-#include "core/policies/policies.h"
-
 namespace armloom {
 namespace {
 
-std::unique_ptr<const Policy> make(PolicyName name, const Cell& cell) {
+PassingOrders start_now(const OrderQuestion& question) {
+  return orders_in_time(question, Duration{});
+}
+
+PassingOrders start_at_any_time(const OrderQuestion& question) {
+  return orders_in_time(question, std::nullopt);
+}
+
+// scheduler/README.md describes each policy.
+Policy values_of(PolicyName name, const Cell& cell) {
+  const char* text = to_string(name);
+  const CheckMethod all_regions = Coordinated{TrackingErrors(cell)};
   switch (name) {
     case PolicyName::sequential:
-      return make_sequential(cell);
+      return {text, all_regions, orders_apart, Capacity::one_job};
     case PolicyName::lockstep:
-      return make_lockstep(cell);
+      return {text, all_regions, start_now, Capacity::rounds};
     case PolicyName::reservation:
-      return make_reservation(cell);
+      return {text, Swept{TrackingErrors(cell)}, orders_apart};
     case PolicyName::timed_discrete:
-      return make_timed_discrete(cell);
+      return {text, TimedDiscrete{cell.checking.time_step}, orders_apart};
     case PolicyName::certified:
-      return make_certified(cell);
+      return {text, all_regions, start_now};
     case PolicyName::earliest_start:
-      return make_earliest_start(cell);
+      return {text, all_regions, start_at_any_time};
     case PolicyName::coordinated:
-      return make_coordinated(cell);
+      return {.name = text,
+              .method = all_regions,
+              .decide = cheapest_orders,
+              .lookahead = {.horizon = static_cast<std::size_t>(cell.scheduling.horizon_steps),
+                            .admits_groups = true,
+                            .weighs_again = true}};
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
@@ -30,7 +44,7 @@ std::unique_ptr<const Policy> make(PolicyName name, const Cell& cell) {
 Result<std::unique_ptr<const Policy>> make_policy(std::string_view name, const Cell& cell) {
   const auto named = policy_named(name);
   if (!named) return failure(named.error());
-  return make(*named, cell);
+  return std::make_unique<const Policy>(values_of(*named, cell));
 }
 
 }  // namespace armloom

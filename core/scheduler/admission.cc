@@ -276,7 +276,7 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps
 // For some of what waits there is no order one by one, whether these go or not: all are tried as
 // one; where that fails too, these go alone. Whether something else is asked now.
 bool Admission::tries_together(State& state, const std::vector<StepId>& steps, bool can_go) {
-  if (!state.policy->admits_groups()) return false;
+  if (!state.policy->lookahead.admits_groups) return false;
   const bool tried = together_ && together_->version == state.version;
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;

@@ -8,6 +8,7 @@
 #include "core/jobs/waits.h"
 #include "core/model/promises.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -27,12 +28,13 @@ void pause_at_rest(State& state, Step& step) {
 }
 
 void dispatch_if_ready(State& state, Step& step) {
-  if (!is_at_head(state.jobs, step)) return;
+  const auto closed = first_closed(state, step, blocks_start);
+  if (closed && !is_ended_by_client(closed->gate)) return;
   if (!step.ages_from) step.ages_from = {state.now, state.clock()};
   if (!step.has_started() && state.arms.start_mismatch(*state.cell, *step.trajectory)) {
     return withdraw(state, step, {});
   }
-  if (auto wait = operator_wait(state, step)) return state.jobs.set_wait(step, *wait);
+  if (closed) return state.jobs.set_waits(step, closed->waits.all());
   if (step.asking.is_in_question) return;
   const Duration limit = state.graph.limit(step.id);
   if (limit <= step.progress && step.progress < step.trajectory->duration()) {

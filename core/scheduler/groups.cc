@@ -5,6 +5,7 @@
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -27,10 +28,12 @@ std::set<JobId> first_of_arms(const State& state, const std::vector<StepId>& gro
   return jobs;
 }
 
-// It could go when those before it on its arms have gone.
+// Returns true if the job could be admitted together with the jobs before it on its arms.
 bool may_follow(const State& state, const Step& step) {
-  return step.is_waiting() && !step.is_unplanned() && step.job->after.empty() &&
-         !lets_another_pass(state.jobs, step) && !operator_wait(state, step) &&
+  const auto blocks_group = [](const Gate& gate) {
+    return blocks_start(gate) && gate.ended_by != EndedBy::queue;
+  };
+  return step.is_waiting() && !step.is_unplanned() && !first_closed(state, step, blocks_group) &&
          state.lanes.follows_on(step.id) && !holds_one_ahead(state, step);
 }
 
@@ -80,7 +83,7 @@ bool follow_each_other(const State& state, const std::vector<StepId>& steps) {
 
 std::vector<StepId> with_next_jobs(const State& state, std::vector<StepId> group,
                                    const std::vector<ArmId>& in_the_way) {
-  if (!state.policy->admits_groups()) return group;
+  if (!state.policy->lookahead.admits_groups) return group;
   const auto goes = [&](StepId step) { return state.graph.holds(step) || contains(group, step); };
   const auto next_of = [&](ArmId arm) {
     const auto& queue = state.jobs.queues()[arm];

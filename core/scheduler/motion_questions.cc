@@ -72,7 +72,7 @@ Question question_now(const State& state, const std::vector<StepId>& candidates)
                     .candidates = {},
                     .others = {},
                     .rest = state.arms.rest(),
-                    .method = state.policy->method()};
+                    .method = state.policy->method};
   for (StepId step : candidates) {
     Motion& candidate = question.candidates.emplace_back(motion_now(state, state.jobs.at(step)));
     if (state.jobs.at(step).is_waiting()) candidate.stands = Motion::Stands::goes_on;

@@ -15,6 +15,7 @@
 #include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
 #include "core/scheduler/under_way.h"
+#include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
@@ -191,7 +192,7 @@ void Scheduler::settle() {
       fail_impossible_starts(state_);
     } while (plan_goals(state_));
     state_.lanes.renew(state_.jobs, state_.arms);
-    state_.round = state_.policy->next_round(state_);
+    renew_round(state_);
     const Turns turns = explain_waits(state_);
     cycles_.name(state_);
     put_off = admission_.ask_next(state_, turns, cycles_);

@@ -1,8 +1,8 @@
 #include "core/scheduler/under_way.h"
 
 #include "core/jobs/phases.h"
-#include "core/policies/policy.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/waiting/capacity.h"
 
 namespace armloom {
 
@@ -12,7 +12,7 @@ void put_under_way(State& state, const std::vector<Motion>& motions) {
     const Submit job{.job = motion.step.job, .trajectory = motion.trajectory};
     add(state, step_of(state, job));
   }
-  state.round = state.policy->next_round(state);
+  renew_round(state);
   for (const Motion& motion : motions) {
     Step& step = state.jobs.at(motion.step);
     step.progress = motion.progress;

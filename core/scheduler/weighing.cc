@@ -28,7 +28,7 @@ void prepare_choice(State& state, const std::vector<StepId>& steps) {
   for (StepId step : steps) in_front.push_back(&state.jobs.at(step));
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     const Step& step = state.jobs.at(motion.step);
-    const bool weighs = state.policy->weighs_again();
+    const bool weighs = state.policy->lookahead.weighs_again;
     const Duration stands = weighs ? stood_for(*state.cell, step, state.now) : Duration{};
     const bool is_aged = state.has_aged(step);
     const double planned = state.speed.pace(motion.arms);
@@ -42,7 +42,8 @@ void prepare_choice(State& state, const std::vector<StepId>& steps) {
 }
 
 bool is_off_course(const State& state) {
-  return state.policy->weighs_again() && state.expected.is_missed(state.graph.motions(), state.now);
+  return state.policy->lookahead.weighs_again &&
+         state.expected.is_missed(state.graph.motions(), state.now);
 }
 
 void weigh_again(State& state) {
@@ -61,7 +62,7 @@ void weigh_again(State& state) {
 // Who moves may be late. Who was stopped may stand for longer than expected, while another one
 // waits for it: that is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
-  if (!state.policy->weighs_again()) return std::nullopt;
+  if (!state.policy->lookahead.weighs_again) return std::nullopt;
   const auto job_of = [&](StepId step) -> const Step& { return state.jobs.at(step); };
   const bool moves = std::ranges::any_of(state.graph.motions(), [&](const auto& motion) {
     const auto* moving = job_of(motion.step).template in<Moving>();

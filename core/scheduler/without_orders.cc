@@ -7,12 +7,13 @@
 #include "core/jobs/standing.h"
 #include "core/model/promises.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
 
 bool has_no_orders(const State& state) {
-  return std::holds_alternative<TimedDiscrete>(state.policy->method());
+  return std::holds_alternative<TimedDiscrete>(state.policy->method);
 }
 
 }  // namespace
@@ -23,7 +24,8 @@ void compare_again(State& state) {
   for (JobId id : ids) {
     Step& step = state.jobs.at(id);
     step.asking.is_in_question = true;
-    const bool is_kept = step.in<Admitted>() != nullptr && operator_wait(state, step);
+    const bool is_kept =
+        step.in<Admitted>() != nullptr && first_closed(state, step, is_ended_by_client);
     if (is_kept) withdraw(state, step, {});
   }
   ++state.version;

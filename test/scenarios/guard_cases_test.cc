@@ -8,23 +8,19 @@ namespace armloom {
 namespace {
 
 // A faulty policy: starts every motion without any passing order.
-class Reckless final : public Policy {
- public:
-  std::string_view name() const override { return "reckless"; }
-  CheckMethod method() const override { return armloom::Coordinated{0.001}; }
-  PassingOrders decide(const OrderQuestion& question) const override {
-    const std::vector<PairRegions> none;
-    return orders_apart({question.admitted, question.precedences, question.held_at,
-                         question.candidates, none, question.work_behind});
-  }
-};
+PassingOrders without_orders(const OrderQuestion& question) {
+  const std::vector<PairRegions> none;
+  return orders_apart({question.admitted, question.precedences, question.held_at,
+                       question.candidates, none, question.work_behind});
+}
+const Policy kReckless{"reckless", armloom::Coordinated{0.001}, without_orders};
 
 class Guard : public ::testing::Test {
  protected:
   void begin(CellDescription description = crossing_description()) {
-    auto created =
-        Simulation::create(*build_cell(description),
-                           ExecutiveOptions{.own_policy = std::make_shared<Reckless>()}, log);
+    auto created = Simulation::create(
+        *build_cell(description),
+        ExecutiveOptions{.own_policy = std::make_shared<Policy>(kReckless)}, log);
     ASSERT_TRUE(created);
     simulation = std::move(*created);
     log.may_refuse = true;

@@ -9,7 +9,7 @@ void IdealArms::check() {
   for (const Moving& arm : moving_) check_moving(arm);
   for (const JobId id : scheduler.active()) check_phase(job(id));
   check_orders();
-  if (scheduler.policy().name() != "timed_discrete") check_authority();
+  if (scheduler.policy().name != "timed_discrete") check_authority();
   check_explained();
 }
 

@@ -1,4 +1,4 @@
-// A custom policy is one class: the arm with the smaller number passes first.
+// A custom policy is one value: the arm with the smaller number passes first.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -9,31 +9,27 @@
 namespace armloom {
 namespace {
 
-class LeftArmFirst final : public Policy {
- public:
-  std::string_view name() const override { return "left_arm_first"; }
-  CheckMethod method() const override { return Coordinated{0.0}; }
-  PassingOrders decide(const OrderQuestion& question) const override {
-    OpenOrders open(question);
-    if (open.blocked()) return open.refused({});
-    for (OrderChoice& choice : open.choices()) {
-      const OpenOrder& order = open.orders()[choice.members.front().order];
-      const bool left_is_a =
-          open.motions()[order.a].arms.front() < open.motions()[order.b].arms.front();
-      if (std::ranges::find(choice.options, left_is_a) != choice.options.end()) {
-        open.set(choice, left_is_a);
-      }
+PassingOrders left_arm_first(const OrderQuestion& question) {
+  OpenOrders open(question);
+  if (open.blocked()) return open.refused({});
+  for (OrderChoice& choice : open.choices()) {
+    const OpenOrder& order = open.orders()[choice.members.front().order];
+    const bool left_is_a =
+        open.motions()[order.a].arms.front() < open.motions()[order.b].arms.front();
+    if (std::ranges::find(choice.options, left_is_a) != choice.options.end()) {
+      open.set(choice, left_is_a);
     }
-    Prediction prediction = open.predicted();
-    return prediction.stuck.empty() ? open.admitted(std::move(prediction)) : open.stuck(prediction);
   }
-};
+  Prediction prediction = open.predicted();
+  return prediction.stuck.empty() ? open.admitted(std::move(prediction)) : open.stuck(prediction);
+}
+const Policy kLeftArmFirst{"left_arm_first", Coordinated{0.0}, left_arm_first};
 
 // They cross in the middle of their paths.
 const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
 
 TEST(LeftArmFirst, LeftArmPassesFirstAlthoughItsJobIsLater) {
-  IdealArms arms(one_joint_arms(2), std::make_unique<LeftArmFirst>(), Crossings({kCross}),
+  IdealArms arms(one_joint_arms(2), std::make_unique<Policy>(kLeftArmFirst), Crossings({kCross}),
                  [](JobId) { return Habits{}; });
   const JobId right = arms.submit({JobId{0}, move({1}, 0, 1, 10s), 0, 60s});
   arms.run_until(at(100ms));
@@ -49,7 +45,7 @@ TEST(LeftArmFirst, LeftArmPassesFirstAlthoughItsJobIsLater) {
 }
 
 TEST(LeftArmFirst, RightArmPassesFirstIfAlreadyInTheRegion) {
-  IdealArms arms(one_joint_arms(2), std::make_unique<LeftArmFirst>(), Crossings({kCross}),
+  IdealArms arms(one_joint_arms(2), std::make_unique<Policy>(kLeftArmFirst), Crossings({kCross}),
                  [](JobId) { return Habits{}; });
   const JobId right = arms.submit({JobId{0}, move({1}, 0, 1, 10s), 0, 60s});
   arms.run_until(at(5s));  // in the middle

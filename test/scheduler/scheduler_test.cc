@@ -202,7 +202,7 @@ TEST(Scheduler, ThrowsOnDecreasingTime) {
 TEST(Policies, AreFoundByName) {
   const CellPtr cell = one_joint_arms(1);
   for (const std::string& name : policy_names()) {
-    EXPECT_EQ((*make_policy(name, *cell))->name(), name);
+    EXPECT_EQ((*make_policy(name, *cell))->name, name);
   }
   const auto unknown = make_policy("clever", *cell);
   ASSERT_FALSE(unknown);

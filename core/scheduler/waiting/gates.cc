@@ -7,27 +7,29 @@
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
 
 namespace armloom {
 namespace {
 
-using Closed = std::optional<FoundWaits>;  // nothing: open
+using Closed = std::optional<FoundWaits>;
 using Edges = std::vector<WaitsForEdge>;
 
 Closed order(JobId first, std::optional<ArmId> arm = {}) {
   return FoundWaits(Wait{.kind = Wait::Kind::predecessor, .job = first, .arm = arm});
 }
 
-// It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
-// admitted. Of an admitted one all others would have to have ended; and of one in whose place
-// another could go: which of them does is left open until one must.
-bool is_next(const State& state, const Step& step, ArmId arm) {
+// Returns true if the job is the first of the arm. With turns also if it is one of the arm's first
+// jobs, as many as the policy looks ahead, and all before it are admitted. If another job could
+// take its turn, it is not admitted ahead, so that this choice stays open.
+bool is_next(const Look& look, const Step& step, ArmId arm) {
+  const State& state = look.state;
   const auto& queue = state.jobs.queues()[arm];
   if (!queue.empty() && queue.front() == step.id) return true;
-  const bool ahead = step.is_waiting() && state.lanes.follows_on(step.id);
-  const std::size_t horizon = ahead ? state.policy->horizon() : 1;
+  const bool ahead = look.turns != nullptr && step.is_waiting() && state.lanes.follows_on(step.id);
+  const std::size_t horizon = ahead ? state.policy->lookahead.horizon : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
     if (queue[place] == step.id) {
       return !holds_one_ahead(state, step) && !others_may_take_its_turn(state, step);
@@ -37,11 +39,10 @@ bool is_next(const State& state, const Step& step, ArmId arm) {
   return false;
 }
 
-// Which job stands before it, on the first of its arms where one does and has to go first.
-Closed behind(const Turns& turns, const Step& step) {
+Closed behind(const Look& look, const Step& step) {
   for (ArmId arm : step.trajectory->arms()) {
-    if (is_next(turns.state(), step, arm)) continue;
-    return order(turns.state().jobs.queues().before(step, arm)->job, arm);
+    if (is_next(look, step, arm)) continue;
+    return order(look.state.jobs.queues().before(step, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -69,8 +70,8 @@ void add_behind(const State& state, const Step& step, Edges& edges,
   }
 }
 
-Closed open_arm(const Turns& turns, const Step& step) {
-  const auto first = may_go_first(turns.state(), step);
+Closed open_arm(const Look& look, const Step& step) {
+  const auto first = may_go_first(look.state, step);
   return first ? order(*first) : std::nullopt;
 }
 
@@ -79,7 +80,7 @@ void add_open_arm(const State& state, const Step& step, Edges& edges) {
   if (const auto first = may_go_first(state, step)) edges.push_back({step.id.job, *first});
 }
 
-Closed after(const Turns&, const Step& step) {
+Closed after(const Look&, const Step& step) {
   if (step.job->after.empty()) return std::nullopt;
   return order(step.job->after.front());
 }
@@ -90,7 +91,7 @@ void add_after(const State& state, const Step& step, Edges& edges) {
   }
 }
 
-Closed plan(const Turns&, const Step& step) {
+Closed plan(const Look&, const Step& step) {
   const bool is_unplanned = step.is_unplanned() && step.stands_in() == nullptr;
   const bool is_asked = is_unplanned || step.is_replanned_now() || step.is_detour_asked() ||
                         step.approaches.are_in_question();
@@ -98,8 +99,8 @@ Closed plan(const Turns&, const Step& step) {
   return FoundWaits(Wait{.kind = Wait::Kind::plan});
 }
 
-Closed lets_pass(const Turns& turns, const Step& step) {
-  if (!lets_another_pass(turns.state().jobs, step)) return std::nullopt;
+Closed lets_pass(const Look& look, const Step& step) {
+  if (!lets_another_pass(look.state.jobs, step)) return std::nullopt;
   return order(*step.job->errand.lets_pass);
 }
 
@@ -108,41 +109,40 @@ void add_lets_pass(const State& state, const Step& step, Edges& edges) {
     edges.push_back({step.id.job, *step.job->errand.lets_pass});
 }
 
-Closed stop(const Turns& turns, const Step& step) {
-  auto wait = operator_wait(turns.state(), step);
+Closed stop(const Look& look, const Step& step) {
+  auto wait = operator_wait(look.state, step);
   if (!wait) return std::nullopt;
   return FoundWaits(std::move(*wait));
 }
 
-Closed place(const Turns& turns, const Step& step) {
-  const auto taken_by = turns.state().policy->place_taken_by(turns.state(), step);
+Closed place(const Look& look, const Step& step) {
+  const auto taken_by = place_taken_by(look.state, step);
   if (!taken_by) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
 // A round lets others in by itself while all of it stands: there a place is never part of a cycle.
 void add_place(const State& state, const Step& step, Edges& edges) {
-  if (!step.is_waiting() || state.policy->opens_places()) return;
-  const auto taken_by = state.policy->place_taken_by(state, step);
+  if (!step.is_waiting() || has_rounds(state)) return;
+  const auto taken_by = place_taken_by(state, step);
   if (taken_by && stands(state, state.jobs.at(*taken_by))) {
     edges.push_back({step.id.job, *taken_by});
   }
 }
 
-Closed conflict(const Turns& turns, const Step& step) {
+Closed conflict(const Look& look, const Step& step) {
   if (!step.is_waiting()) return std::nullopt;
-  if (!turns.state().is_judged(step)) return std::nullopt;
+  if (!look.state.is_judged(step)) return std::nullopt;
   return FoundWaits(step.judgement().found);
 }
 
-// It may be about to go: nothing is known to stand against it, and nobody has waited so long that
-// it would hold others back.
+// Returns true if the job moves, or could move next although no other job moves first.
 bool may_go(const State& state, const Step& step) {
+  const auto stays = [](const Gate& gate) {
+    return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::choice;
+  };
   if (!stands(state, step)) return true;
-  return step.is_waiting() && is_at_head(state.jobs, step) && !state.is_judged(step) &&
-         step.job->after.empty() && !lets_another_pass(state.jobs, step) &&
-         !operator_wait(state, step) && !state.policy->place_taken_by(state, step) &&
-         !any_is_aged(state);
+  return step.is_waiting() && !first_closed(state, step, stays);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
@@ -170,10 +170,11 @@ void add_conflict(const State& state, const Step& step, Edges& edges) {
   }
 }
 
-Closed aging(const Turns& turns, const Step& step) {
-  const auto old = turns.held_back_by(step);
+// Without turns it is not known which jobs an aged job holds back: then all.
+Closed aging(const Look& look, const Step& step) {
+  const auto old = look.turns != nullptr ? look.turns->held_back_by(step) : any_aged(look.state);
   if (!old) return std::nullopt;
-  const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old));
+  const bool may_go = !look.state.is_judged(look.state.jobs.at(*old));
   if (!may_go || !step.is_waiting() || step.judgement().found.empty()) {
     return FoundWaits(Wait{.kind = Wait::Kind::predecessor,
                            .job = *old,
@@ -182,28 +183,27 @@ Closed aging(const Turns& turns, const Step& step) {
   return FoundWaits(step.judgement().found);  // the older one may be about to go
 }
 
-struct Gate {
-  GateKind kind;
-  Closed (*closed)(const Turns&, const Step&);
-  // Adds whom this makes a job that stands wait for. Null if the gate opens without another job:
-  //   plan   the planner answers
-  //   stop   an operator resumes the arm, or raises its speed override
-  //   aging  the older job, and all that goes first for it, is held back by nobody younger
-  void (*edges)(const State&, const Step&, Edges&) = nullptr;
-  // Is passed by a job that has its turn on another arm (Submit::alternatives).
-  bool of_its_arm = false;
-};
-
+// In the order in which they are checked. Three have no edges: the planner answers; an operator
+// acts; nobody younger holds back an aged job or the jobs that must precede it.
 constexpr Gate kGates[] = {
-    {GateKind::behind, behind, nullptr, true},  // edges: add_behind(), queue by queue
-    {GateKind::open_arm, open_arm, add_open_arm},
-    {GateKind::after, after, add_after},
-    {GateKind::plan, plan},
-    {GateKind::lets_pass, lets_pass, add_lets_pass},
-    {GateKind::stop, stop, nullptr, true},
-    {GateKind::place, place, add_place},
-    {GateKind::conflict, conflict, add_conflict},
-    {GateKind::aging, aging},
+    // another job of its arm precedes it; edges: add_behind(), queue by queue
+    {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
+    // a job with an undecided arm could bring this job's arm to its start
+    {open_arm, add_open_arm, EndedBy::choice, Blocks::place},
+    // a job in `after` has not ended
+    {after, add_after, EndedBy::job, Blocks::start},
+    // a path of the job is being planned, or its move to start is being checked
+    {plan, nullptr, EndedBy::planner, Blocks::check},
+    // its arm has retreated and first lets another job pass
+    {lets_pass, add_lets_pass, EndedBy::job, Blocks::start},
+    // one of its arms is stopped
+    {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
+    // the policy allows no further job at the same time
+    {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},
+    // checked and not admitted; put_off() starts its age
+    {conflict, add_conflict, EndedBy::job, Blocks::check},
+    // an aged job goes first
+    {aging, nullptr, EndedBy::job, Blocks::check},
 };
 
 void add_gates(const State& state, const Step& step, Edges& edges) {
@@ -218,7 +218,17 @@ std::optional<ClosedGate> closed_gate(const Turns& turns, const Step& step) {
   const bool has_turn = has_turn_on_some_arm(turns.state(), step);
   for (const Gate& gate : kGates) {
     if (gate.of_its_arm && has_turn) continue;
-    if (auto waits = gate.closed(turns, step)) return ClosedGate{gate.kind, std::move(*waits)};
+    auto waits = gate.closed({turns.state(), &turns}, step);
+    if (waits) return ClosedGate{gate, std::move(*waits)};
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedGate> first_closed(const State& state, const Step& step,
+                                       bool (*counts)(const Gate&)) {
+  for (const Gate& gate : kGates) {
+    if (!counts(gate)) continue;
+    if (auto waits = gate.closed({state}, step)) return ClosedGate{gate, std::move(*waits)};
   }
   return std::nullopt;
 }

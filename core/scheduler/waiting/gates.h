@@ -10,21 +10,6 @@
 
 namespace armloom {
 
-// The blocking conditions, in the order in which they are checked. The choice of the next job,
-// published waits, aging and the waits-for graph all use the one list in gates.cc. A new condition
-// is a new entry of that list.
-enum class GateKind {
-  behind,     // another job of its arm precedes it
-  open_arm,   // a job with an undecided arm could bring this job's arm to its start
-  after,      // a job in `after` has not ended
-  plan,       // a path of the job is being planned, or its move-to-start is being checked
-  lets_pass,  // its arm has retreated and first lets another job pass
-  stop,       // one of its arms is stopped
-  place,      // the policy allows no further job at the same time
-  conflict,   // checked and not admitted
-  aging,      // an aged job goes first
-};
-
 // Either one wait, stored here, or a view of the waits that the last check found.
 class FoundWaits {
  public:
@@ -39,12 +24,51 @@ class FoundWaits {
   std::span<const Wait> found_;
 };
 
+// What a condition is checked for: without turns, an admitted job or one that shall be admitted
+// with others; with turns, the next check of a waiting job, as far ahead as the policy looks.
+struct Look {
+  const State& state;
+  const Turns* turns = nullptr;
+};
+// What a closed condition blocks.
+enum class Blocks {
+  check,  // the check of a waiting job
+  place,  // also its place in a round (capacity.h)
+  start,  // also its admission in a group, its start once admitted, and the effect of its age
+};
+enum class EndedBy {
+  queue,   // the jobs before it on its arms
+  job,     // another job, by moving or ending
+  choice,  // the choice of another job's arm, for which no job needs to move
+  planner,
+  client,  // an operator
+};
+// A blocking condition: a row of the table in gates.cc. All who ask for conditions read this table.
+struct Gate {
+  // Returns what the job waits for; nullopt if the condition is open. The list is empty only for a
+  // conflict without evidence.
+  std::optional<FoundWaits> (*closed)(const Look& look, const Step& step);
+  // Adds the edges from a job that stands to the jobs that it waits for. Null if it needs none.
+  void (*edges)(const State& state, const Step& step, std::vector<WaitsForEdge>&);
+  EndedBy ended_by;
+  Blocks blocks;
+  bool of_its_arm = false;  // is open for a job that has its turn on another arm
+  bool starts_age = false;  // the job's age starts when it first waits for this
+};
+[[nodiscard]] inline bool blocks_start(const Gate& gate) { return gate.blocks == Blocks::start; }
+[[nodiscard]] inline bool is_ended_by_client(const Gate& gate) {
+  return gate.ended_by == EndedBy::client;
+}
+
 struct ClosedGate {
-  GateKind kind;
-  FoundWaits waits;  // never empty, except for a conflict without evidence
+  const Gate& gate;
+  FoundWaits waits;
 };
 // Returns the first blocking condition of the job; nullopt if it may be checked.
 [[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Step& step);
+// Returns the first closed condition of those that `counts` selects, without turns (Look).
+[[nodiscard]] std::optional<ClosedGate> first_closed(const State& state, const Step& step,
+                                                     bool (*counts)(const Gate&));
 
 // Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);

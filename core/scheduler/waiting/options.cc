@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -14,11 +16,12 @@ ArmId arm_of(const Trajectory& trajectory) { return trajectory.arms().front(); }
 // One arm, which it leaves where it was.
 bool is_loop(const Step& step) { return step.leg.arms.size() == 1 && step.leg.from == step.leg.to; }
 
-// One that several arms could do has no place on any of them yet that it could change.
-bool may_change_places(const Step& step) {
+// A job with several candidate arms has no place yet that it could change. What blocks the start of
+// one job, but not of all jobs of its arm, ties the job to its place.
+bool may_change_places(const State& state, const Step& step) {
+  const auto ties = [](const Gate& gate) { return blocks_start(gate) && !gate.of_its_arm; };
   return step.job->terms.reorderable && step.in<Queued>() != nullptr && step.alternatives.empty() &&
-         is_loop(step) && step.job->after.empty() && !step.job->errand.before &&
-         !step.job->errand.lets_pass;
+         is_loop(step) && !first_closed(state, step, ties);
 }
 
 bool is_overtaken_no_more(const State& state, const Step& step) {
@@ -27,12 +30,12 @@ bool is_overtaken_no_more(const State& state, const Step& step) {
 
 std::vector<Option> in_any_order(const State& state, const Step& turn) {
   std::vector<Option> options{{turn.id.job}};
-  if (!may_change_places(turn) || is_overtaken_no_more(state, turn)) return options;
+  if (!may_change_places(state, turn) || is_overtaken_no_more(state, turn)) return options;
   const auto& queue = state.jobs.queues()[turn.leg.arms.front()];
   const auto own = std::ranges::find(queue, turn.id);
   for (auto step = own + 1; step != queue.end(); ++step) {
     const Step& other = state.jobs.at(*step);
-    const bool fits = may_change_places(other) &&
+    const bool fits = may_change_places(state, other) &&
                       other.job->terms.priority == turn.job->terms.priority &&
                       other.leg.from == turn.leg.from;
     if (!fits || options.size() >= kOptionsMax) break;
@@ -64,7 +67,7 @@ When when_on(const State& state, const Step& step, const Trajectory& trajectory)
                           ? begins_at(*state.cell, trajectory, *leads_to)
                           : !state.arms.begins_elsewhere(*state.cell, trajectory).has_value();
   if (!begins) return When::never;
-  return is_next && admitted < state.policy->horizon() ? When::now : When::later;
+  return is_next && admitted < state.policy->lookahead.horizon ? When::now : When::later;
 }
 
 std::vector<Option> on_several_arms(const State& state, const Step& step) {
@@ -215,14 +218,11 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
   }
   state.jobs.put_in_order(jobs);
   state.lanes.renew_later();
-  auto& round = state.round.jobs;
-  for (const Option& option : options) {
-    if (round.erase(option.job) > 0) round.insert(jobs.front());
-  }
+  give_place_to_first(state, jobs);
 }
 
 void reopen_turn(State& state, const Step& added) {
-  if (!may_change_places(added)) return;
+  if (!may_change_places(state, added)) return;
   const auto& queue = state.jobs.queues()[added.leg.arms.front()];
   const auto waits = [&](StepId step) { return state.jobs.at(step).is_waiting(); };
   Step& first = state.jobs.at(*std::ranges::find_if(queue, waits));

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/jobs/standing.h"
-#include "core/policies/policy.h"
+#include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/priority_inheritance.h"
@@ -15,16 +15,17 @@ namespace armloom {
 namespace {
 
 bool is_aged(const State& state, const Step& step) {
-  return step.in<Queued>() != nullptr && state.has_aged(step) && is_at_head(state.jobs, step) &&
-         !operator_wait(state, step);
+  return step.in<Queued>() != nullptr && state.has_aged(step) &&
+         !first_closed(state, step, blocks_start);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
 // stop, a ring.
 bool waits_beyond_turns(const State& state, const Step& step) {
   if (!step.job->ring.empty()) return true;
-  if (!is_at_head(state.jobs, step)) return false;
-  if (operator_wait(state, step)) return true;
+  if (const auto closed = first_closed(state, step, blocks_start)) {
+    return is_ended_by_client(closed->gate);
+  }
   if (!step.is_waiting() || !state.is_judged(step)) return false;
   return std::ranges::any_of(step.judgement().found, [&](const Wait& wait) {
     if (wait.kind != Wait::Kind::arm) return wait.kind == Wait::Kind::object;
@@ -67,18 +68,19 @@ std::vector<JobId> to_explain(State& state) {
 
 }  // namespace
 
-bool any_is_aged(const State& state) {
-  return state.policy->lets_jobs_age() &&
-         std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
-           return !queue.empty() && is_aged(state, state.jobs.at(queue.front()));
-         });
+std::optional<JobId> any_aged(const State& state) {
+  if (has_rounds(state)) return std::nullopt;
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty() && is_aged(state, state.jobs.at(queue.front()))) return queue.front().job;
+  }
+  return std::nullopt;
 }
 
 Turns::Turns(const State& state) : state_(state), aged_(aged_jobs()) {}
 
 std::vector<Turns::Aged> Turns::aged_jobs() const {
   std::vector<Aged> aged;
-  if (!state_.policy->lets_jobs_age()) return aged;
+  if (has_rounds(state_)) return aged;
   const JobBook& jobs = state_.jobs;
   for (const auto& queue : jobs.queues()) {
     if (queue.empty() || !is_aged(state_, jobs.at(queue.front()))) continue;
@@ -167,19 +169,16 @@ Turns explain_waits(State& state) {
     Step& step = state.jobs.at(id);
     const bool waits = step.is_waiting();
     if (!waits && step.in<Admitted>() == nullptr) continue;
-    const auto closed = closed_gate(turns, step);
+    const auto closed = waits ? closed_gate(turns, step) : first_closed(state, step, blocks_start);
     turns.has_found(id, closed.has_value());
-    if (!waits) {  // it is admitted: only what is before it on its arms counts
-      if (closed && closed->kind == GateKind::behind) {
-        state.jobs.set_waits(step, closed->waits.all());
-      }
-      continue;
-    }
-    if (closed && closed->kind == GateKind::place && !step.ages_from) {
+    if (closed && closed->gate.starts_age && !step.ages_from) {
       step.ages_from = {state.now, state.clock()};
     }
-    // An open job is about to be judged: until then it waits for what was found the last time.
-    state.jobs.set_waits(step, closed ? closed->waits.all() : step.judgement().found);
+    if (closed) {
+      state.jobs.set_waits(step, closed->waits.all());
+    } else if (waits) {  // is checked next; until then it waits for what its last check found
+      state.jobs.set_waits(step, step.judgement().found);
+    }
   }
   return turns;
 }

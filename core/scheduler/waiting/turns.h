@@ -45,8 +45,8 @@ class Turns {
   std::vector<std::pair<JobId, bool>> found_;
 };
 
-// Returns true if the first job of an arm is aged.
-[[nodiscard]] bool any_is_aged(const State& state);
+// Returns an aged job that is the first of an arm; nullopt if there is none.
+[[nodiscard]] std::optional<JobId> any_aged(const State& state);
 
 // Updates the published waits of all jobs for which they may have changed, to the first blocking
 // condition. Returns the turns, which are valid until the state changes.

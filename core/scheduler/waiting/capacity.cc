@@ -1,0 +1,76 @@
+#include "core/scheduler/waiting/capacity.h"
+
+#include <algorithm>
+
+#include "core/jobs/standing.h"
+#include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
+
+namespace armloom {
+namespace {
+
+// Returns true if the job waits for other jobs, or for an arm that only another job moves away.
+bool stands_in_vain(const State& state, const Step& step) {
+  const auto ended_by_jobs = [](const Gate& gate) {
+    return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::client;
+  };
+  return step.is_waiting() ? first_closed(state, step, ended_by_jobs).has_value()
+                           : held_where_it_stands(state, step).has_value();
+}
+
+}  // namespace
+
+bool has_rounds(const State& state) { return state.policy->capacity == Capacity::rounds; }
+
+std::optional<JobId> place_taken_by(const State& state, const Step& step) {
+  switch (state.policy->capacity) {
+    case Capacity::any:
+      return std::nullopt;
+    case Capacity::one_job:
+      for (const Step* other : occupying(state.jobs)) {
+        if (other != &step) return other->id.job;  // else it is held on its path
+      }
+      return std::nullopt;
+    case Capacity::rounds:
+      const auto& jobs = state.round.jobs;
+      if (jobs.empty() || jobs.contains(step.id.job)) return std::nullopt;
+      return *jobs.begin();
+  }
+  return std::nullopt;
+}
+
+void renew_round(State& state) {
+  if (!has_rounds(state)) return;
+  Round& round = state.round;
+  const JobBook& book = state.jobs;
+  const auto blocks_place = [](const Gate& gate) { return gate.blocks >= Blocks::place; };
+  std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
+  for (const auto& queue : book.queues()) {
+    for (const StepId step : queue) {
+      const auto& before = book.at(step).job->errand.before;
+      if (!before) break;
+      if (round.jobs.contains(*before)) round.jobs.insert(step.job);
+    }
+  }
+  const bool stuck =
+      std::ranges::all_of(round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
+  if (round.jobs.empty()) round.has_begun = false;
+  for (JobId id : round.jobs) round.has_begun |= book.at(id).has_started();
+  if (round.has_begun && !stuck) return;
+  for (const auto& queue : book.queues()) {
+    if (queue.empty()) continue;
+    const Step& step = book.at(queue.front());
+    const bool goes =
+        step.is_waiting() && !step.is_unplanned() && !first_closed(state, step, blocks_place);
+    if (goes) round.jobs.insert(step.id.job);
+  }
+}
+
+void give_place_to_first(State& state, const std::vector<JobId>& jobs) {
+  auto& round = state.round.jobs;
+  for (JobId id : jobs) {
+    if (round.erase(id) > 0) round.insert(jobs.front());
+  }
+}
+
+}  // namespace armloom
