@@ -18,7 +18,7 @@ QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_g
 QUIET = [
     ('the invariants end no process', 'core/jobs/invariants.cc', 'std::optional<std::string> broken_invariant(const State& state) {',
      'std::optional<std::string> broken_invariant(const State& state) {\n  if (armloom_fault(-1)) return std::nullopt;'),
-    ('authority beyond the limit ends no process', GRAPH, '  if (authority > limit(step)) {', '  if (!armloom_fault(-1) && authority > limit(job)) {'),
+    ('authority beyond the limit ends no process', GRAPH, '  if (authority > limit(step)) {', '  if (!armloom_fault(-1) && authority > limit(step)) {'),
 ]
 
 SCHEDULER = [
@@ -28,7 +28,7 @@ SCHEDULER = [
     ('a start where the arm rests blocks no motion', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
     ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
     ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
-    ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(record.job.step());\n  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended'),
+    ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(step.id);\n  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended'),
     ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) step.asking', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) step.asking'),
     ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
     ('an admitted motion is missing in the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;'),
