@@ -58,7 +58,10 @@ void rejoin(State& state, ArmId arm) {
   const OffPath off = nearest_on_path(state, arm, step);
   if (off.distance <= state.cell->execution.start_tolerance_rad) {
     const bool is_within = off.distance <= state.cell->tracking_error(state.cell->arm(arm).robot);
-    if (!is_within) step.off_path = std::max(step.off_path, off.distance);
+    if (is_within || off.distance <= step.off_path) return;
+    step.off_path = off.distance;
+    // Its orders are for the regions of a motion that is nearer to its path.
+    if (state.graph.holds(step.id)) withdraw(state, step, {});
     return;
   }
   const bool rejoins = step.goal || step.job->terms.move_to_start == MoveToStart::plan;

@@ -92,6 +92,27 @@ TEST(Resume, ContinuesAJobWhoseArmRestsCloseToItsPath) {
   EXPECT_NEAR(bench.question->candidates.front().off_path, 0.009, 1e-9);
 }
 
+// Its orders were made with the region of a motion that is closer to its path.
+TEST(Resume, DecidesTheOrdersOfAnArmBesideItsPathAnew) {
+  OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
+  Bench& bench = two.bench;
+  bench.progressed(two.second, 500ms, at(1003ms));
+  bench.step(Stop{{ArmId{1}}, "monitor"}, at(1100ms));
+  Eigen::VectorXd position;
+  bench.job(two.second).trajectory->sample_positions(600ms, position);
+  position[0] += 0.009;
+  bench.step(
+      MotionReport{only_step(two.second), MotionReport::Kind::stopped, 600ms, position, "", 600ms},
+      at(1200ms));
+  bench.step(Resume{{ArmId{1}}}, at(1300ms));
+  ASSERT_TRUE(bench.question);
+  bench.answer_regions(at(1301ms), {{only_step(two.second),
+                                     only_step(two.first),
+                                     {region(ProgressBox{900ms, 1600ms, 1700ms, 1800ms})}}});
+  EXPECT_GT(bench.authority(two.second), 600ms);
+  EXPECT_LE(bench.authority(two.second), 900ms);
+}
+
 TEST(Resume, UsesThePositionFoundAtTheResume) {
   OffPath bench(0.02);
   bench.step(Stop{{ArmId{0}}, "monitor"}, at(600ms));
