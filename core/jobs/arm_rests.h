@@ -58,11 +58,9 @@ class ArmRests {
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
-  // Returns the first joint whose rest differs from the trajectory's start by more than
-  // execution.start_tolerance_rad. With `arm`, compares only the joints of that arm.
-  [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
-                                                        const Trajectory& trajectory,
-                                                        std::optional<ArmId> arm = {}) const;
+  // Returns true if there are joints_elsewhere() than at rest.
+  [[nodiscard]] bool begins_elsewhere(const Cell& cell, const Trajectory& trajectory,
+                                      std::optional<ArmId> arm = {}) const;
   // Returns the detail of Reason::start_mismatch; nullopt without a mismatch.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
@@ -75,8 +73,5 @@ class ArmRests {
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves
 };
-
-// Returns true if `place` is the motion's start, within execution.start_tolerance_rad.
-[[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
 
 }  // namespace armloom
