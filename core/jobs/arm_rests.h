@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/jobs/job.h"
+#include "core/jobs/ways_back.h"
 #include "core/model/cell.h"
 #include "core/sequence/safe_sequence.h"
 
@@ -43,6 +44,8 @@ class ArmRests {
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
 
+  [[nodiscard]] WaysBack& ways_back() { return ways_back_; }
+  [[nodiscard]] const WaysBack& ways_back() const { return ways_back_; }
   // Of several stops, the first one counts; a stop until the connection is replaced by any other.
   void stop(ArmId arm, std::string cause, bool until_connected = false);
   void resume(ArmId arm) { stopped_[arm.index()].reset(); }
@@ -70,6 +73,7 @@ class ArmRests {
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
   std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of unlocated arms
   std::vector<TrajectoryPtr> came_by_;
+  WaysBack ways_back_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves
 };

@@ -6,6 +6,7 @@
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
+#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 
@@ -22,19 +23,12 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   TrajectoryPtr way =
       line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to, speed);
   if (!way) return false;
-  Record record = record_of(state, {.job = state.jobs.next_id(),
-                                    .trajectory = std::move(way),
-                                    .terms = {.priority = head.job.terms.priority,
-                                              .backlog_timeout = head.job.terms.backlog_timeout,
-                                              .on_timeout = head.job.terms.on_timeout},
-                                    .goals = {{.arm = arm, .to = to, .speed = speed}},
-                                    .system_job = true});
-  record.errand.on_behalf_of = head.errand.on_behalf_of;
-  record.errand.before = head.job.id;
-  const JobId id = record.job.id;
-  add(state, std::move(record));
-  state.decided.sent_aside.push_back(
-      {.job = id, .arm = arm, .blocked_job = head.job.id, .to_start = true});
+  Submit job{.trajectory = std::move(way),
+             .terms = {.backlog_timeout = head.job.terms.backlog_timeout,
+                       .on_timeout = head.job.terms.on_timeout},
+             .goals = {{.arm = arm, .to = to, .speed = speed}}};
+  const YieldMove told{.arm = arm, .blocked_job = head.job.id, .to_start = true};
+  (void)add_own(state, told, std::move(job), head.job.id);
   return true;
 }
 

@@ -6,43 +6,44 @@
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
-namespace {
-
-JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::optional<JobId> goes) {
-  const JobId id = state.jobs.next_id();
-  const JobId helped = goes ? *move.before : move.blocked_job;
-  const Job& blocked = state.jobs.at(move.blocked_job).job;
-  Record record = record_of(state, {.job = id,
-                                    .trajectory = std::move(way),
-                                    .terms = {.priority = blocked.terms.priority},
-                                    .system_job = true});
-  record.errand.on_behalf_of = state.jobs.at(helped).errand.on_behalf_of;
-  record.errand.before = move.before;
-  if (goes) {
-    record.job.after = {*goes};
-    record.errand.lets_pass = move.blocked_job;
-  }
+JobId add_own(State& state, YieldMove told, Submit job, std::optional<JobId> before,
+              std::optional<JobId> goes) {
+  told.job = job.job = state.jobs.next_id();
+  job.system_job = true;
+  job.terms.priority = state.jobs.at(told.blocked_job).job.terms.priority;
+  if (goes) job.after = {*goes};
+  Record record = record_of(state, job);
+  record.errand.on_behalf_of = state.jobs.at(goes ? *before : told.blocked_job).errand.on_behalf_of;
+  record.errand.before = before;
+  if (goes) record.errand.lets_pass = told.blocked_job;
   add(state, std::move(record));
-  state.decided.sent_aside.push_back(
-      {id, move.arm, move.blocked_job, move.before.has_value(), goes.has_value()});
-  return id;
+  state.decided.sent_aside.push_back(told);
+  return told.job;
 }
-
-// It gains nothing by the arm's return, where it begins elsewhere anyway.
-bool begins_there(const State& state, const Record& next, ArmId arm) {
-  return !state.arms.begins_elsewhere(*state.cell, *next.job.trajectory, arm);
-}
-
-}  // namespace
 
 void send_aside(State& state, const YieldTrial& move) {
   Record* next = move.before ? &state.jobs.at(*move.before) : nullptr;
-  const bool returns = next != nullptr && !next->job.goal && begins_there(state, *next, move.arm);
-  const JobId goes = add_own(state, move, move.way, std::nullopt);
-  if (returns) (void)add_own(state, move, retraced(*move.way), goes);
+  const bool returns = next != nullptr && !next->job.goal &&
+                       !state.arms.begins_elsewhere(*state.cell, *next->job.trajectory, move.arm);
+  YieldMove told{.arm = move.arm, .blocked_job = move.blocked_job, .in_ring = next != nullptr};
+  const JobId goes = add_own(state, told, {.trajectory = move.way}, move.before);
+  if (!told.in_ring) state.arms.ways_back().retreat(move.arm, *move.way);
+  told.returns = returns;
+  if (returns) (void)add_own(state, told, {.trajectory = retraced(*move.way)}, move.before, goes);
   if (next == nullptr || !next->job.goal) return;
   next->errand.lets_pass = move.blocked_job;  // a goal begins wherever the arm stands by then
   state.lanes.renew_later();
+}
+
+void bring_back(State& state, const Submit& job, Configuration rest) {
+  auto motions = job.alternatives;
+  if (motions.empty()) motions = {job.trajectory};
+  for (const TrajectoryPtr& motion : motions) {
+    for (TrajectoryPtr& way : state.arms.ways_back().take(*state.cell, *motion, rest)) {
+      const YieldMove told{.arm = way->arms().front(), .blocked_job = job.job, .returns = true};
+      (void)add_own(state, told, {.trajectory = std::move(way)}, job.job);
+    }
+  }
 }
 
 }  // namespace armloom
