@@ -154,14 +154,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
     return done(failure(too_many("plans")));
   }
-  Trial::Outcome outcome = trial->outcome();
-  for (Wait& wait : outcome.waits) {
-    if (!wait.job || scheduler_.find(*wait.job) != nullptr) continue;
-    const bool was_forgotten = *wait.job < scheduler_.next_job();
-    if (!was_forgotten) wait.detail = "a motion that the server would add and run first";
-    wait.job.reset();
-  }
-  CheckView view = view_of(outcome, *cell_, jobs_);
+  CheckView view = view_of(trial->outcome(), *cell_, jobs_);
   view.scene_version = scene_.version();
   done(std::move(view));
 }
