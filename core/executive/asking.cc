@@ -127,15 +127,10 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   JobIntake::Ahead ahead = intake_.ahead();
   auto prepared = intake_.prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
-  std::vector<Submit> jobs;
-  std::uint64_t next = scheduler_.next_job().value();
-  for (TrajectoryPtr& back : prepared->returns) {
-    jobs.push_back(intake_.return_of(std::move(back), prepared->terms.priority));
-  }
-  jobs.push_back(intake_.submission(std::move(*prepared)));
-  for (Submit& job : jobs) job.job = JobId{next++};
+  Submit job = intake_.submission(std::move(*prepared));
+  job.job = scheduler_.next_job();
   const Trial::Open open{questions_.asked(), questions_.plans().open()};
-  walk(std::make_shared<Trial>(scheduler_, open, jobs, jobs.back().job, clock_.now),
+  walk(std::make_shared<Trial>(scheduler_, open, std::vector{job}, job.job, clock_.now),
        std::move(done));
 }
 
@@ -159,14 +154,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
     if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
     return done(failure(too_many("plans")));
   }
-  Trial::Outcome outcome = trial->outcome();
-  for (Wait& wait : outcome.waits) {
-    if (!wait.job || scheduler_.find(*wait.job) != nullptr) continue;
-    const bool was_forgotten = *wait.job < scheduler_.next_job();
-    if (!was_forgotten) wait.detail = "a motion that the server would add and run first";
-    wait.job.reset();
-  }
-  CheckView view = view_of(outcome, *cell_, jobs_);
+  CheckView view = view_of(trial->outcome(), *cell_, jobs_);
   view.scene_version = scene_.version();
   done(std::move(view));
 }

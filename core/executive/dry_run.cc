@@ -1,8 +1,9 @@
 #include "core/executive/dry_run.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -10,14 +11,10 @@
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/state/check_home.h"
 #include "core/executive/arms_of.h"
-#include "core/executive/gripper_goal.h"
-#include "core/executive/start_elsewhere.h"
+#include "core/executive/job_intake.h"
 #include "core/executive/views.h"
 #include "core/planning/answer_plan.h"
-#include "core/planning/plan_goal.h"
-#include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
-#include "core/trajectory/implicit_start.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -25,97 +22,75 @@ namespace {
 
 // A job with the time at which it begins if everything goes as planned.
 struct Planned {
-  std::size_t place;  // in the file
   std::string key;
   std::string name;
-  TrajectoryPtr trajectory;
   TimePoint asked;
   TimePoint starts;
-  std::vector<std::size_t> after = {};  // indices of those that have to succeed first
+  TrajectoryPtr trajectory = nullptr;        // null if it ends without a motion, ...
+  std::optional<JobResultView> result = {};  // ... because of this
+  std::vector<std::size_t> after = {};       // indices of those that have to succeed first
 
   [[nodiscard]] TimePoint ends() const { return starts + trajectory->duration(); }
   [[nodiscard]] bool moves(ArmId arm) const {
-    return std::ranges::find(trajectory->arms(), arm) != trajectory->arms().end();
+    return trajectory && std::ranges::count(trajectory->arms(), arm) > 0;
   }
 };
 
-// Reads the jobs in the order of the file: where each arm stands, and when it is free.
+// Takes the jobs in the order of the file, as one batch.
 class Plan {
  public:
-  explicit Plan(PlanningScenePtr scene)
+  Plan(PlanningScenePtr scene, const CellPtr& cell, const std::shared_ptr<const Policy>& policy)
       : scene_(std::move(scene)),
-        cell_(scene_->cell()),
-        rest_(cell_.home()),
+        cell_(*cell),
+        scheduler_(cell, policy, cell_.home()),
+        intake_(cell, scheduler_, none_, {kNoLimit, kNoLimit}),
+        ahead_(intake_.ahead()),
         free_at_(cell_.arms.size(), TimePoint{}) {}
 
   void add(const TimedJob& timed, Problems& problems) {
-    const std::size_t before = problems.size();
-    Planned job{read_, timed.job.key, timed.job.name, nullptr, timed.at, timed.at};
-    const std::string place = "/" + std::to_string(read_++) + "/job";
-    if (job.key.empty()) job.key = "job-" + std::to_string(read_);
-    Problems found;
-    const bool fails = find_what_it_follows(timed.job, job, found);
-    add_below(place, std::move(found), problems);
-    if (moves_gripper_only(timed.job, cell_)) {
-      auto motion = gripper_motion(timed.job, cell_, rest_);
-      if (motion) job.trajectory = *std::move(motion);
-      if (!motion) add_below(place, std::move(motion.error()), problems);
-    } else if (timed.job.move_to) {
-      auto goals = goals_of(cell_, {timed.job.arm, timed.job.arms}, *timed.job.move_to, "/move_to");
-      if (!goals) add_below(place, std::move(goals.error()), problems);
-      if (goals && !fails) plan(*goals, timed.job.speed, job);
+    JobRequest request = timed.job;
+    const std::string place = "/" + std::to_string(jobs_.size()) + "/job";
+    if (request.key.empty()) request.key = "job-" + std::to_string(jobs_.size() + 1);
+    request.terms.move_to_start =
+        MoveToStart::none;  // it has to begin where the jobs before it end
+    Planned& job = jobs_.emplace_back(request.key, request.name, timed.at, timed.at);
+    const Configuration rest = ahead_.rest;
+    auto prepared = intake_.prepare(std::move(request), ahead_);
+    ahead_.rest = rest;
+    ahead_.open.clear();
+    if (!prepared) return add_below(place, std::move(prepared.error()), problems);
+    by_key_.emplace(job.key, jobs_.size() - 1);
+    for (const std::string& before : prepared->after) follow(by_key_.at(before), job);
+    if (job.result) return;
+    if (prepared->goals.empty()) {
+      job.trajectory = prepared->alternatives.front();  // as if that were chosen
     } else {
-      const auto motion = timed.job.motions().front();  // as if that were chosen
-      auto trajectory = validate_from(motion.motion, cell_, rest_);
-      Problems wrong = trajectory ? Problems{} : std::move(trajectory.error());
-      if (trajectory) *trajectory = with_whole_turns(cell_, std::move(*trajectory), rest_);
-      if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, wrong);
-      add_below(place + motion.place, std::move(wrong), problems);
-      if (trajectory) job.trajectory = *std::move(trajectory);
+      plan(prepared->goals, job);
     }
-    if (problems.size() > before) return;
-    if (fails) ended_.emplace(job.key, std::pair(job.place, Reason::predecessor_failed));
-    if (!ended_.contains(job.key)) take(std::move(job));
+    if (job.trajectory) take(job);
   }
 
   [[nodiscard]] const std::vector<Planned>& jobs() const { return jobs_; }
-  // Those that would end without a motion; by their keys.
-  using Ended = std::map<std::string, std::pair<std::size_t, Reason>>;
-  [[nodiscard]] const Ended& ended() const { return ended_; }
-  [[nodiscard]] const std::string& why(const std::string& key) const { return why_.at(key); }
 
  private:
-  // Whether one of these fails.
-  bool find_what_it_follows(const JobRequest& request, Planned& job, Problems& problems) {
-    if (by_key_.contains(job.key) || ended_.contains(job.key)) {
-      problems.push_back({ProblemKind::conflict, "id-in-use", "/id",
-                          "the id is used by an earlier job of the file", job.key});
+  static constexpr auto kNoLimit = std::numeric_limits<std::size_t>::max();
+
+  void follow(std::size_t before, Planned& job) {
+    job.after.push_back(before);
+    if (jobs_[before].result) {
+      job.result = {Reason::predecessor_failed, "a job in its \"after\" did not succeed"};
+    } else {
+      job.starts = std::max(job.starts, jobs_[before].ends());
     }
-    bool fails = false;
-    for (std::size_t i = 0; i < request.after.size(); ++i) {
-      const std::string& key = request.after[i];
-      if (const auto it = by_key_.find(key); it != by_key_.end()) {
-        job.starts = std::max(job.starts, jobs_[it->second].ends());
-        job.after.push_back(it->second);
-      } else if (ended_.contains(key)) {
-        fails = true;
-        why_[job.key] = "a job in its \"after\" did not succeed";
-      } else {
-        problems.push_back({ProblemKind::invalid, "unknown-job", "/after/" + std::to_string(i),
-                            "no job before this one has the id \"" + key + "\"", key});
-      }
-    }
-    return fails;
   }
 
   // From where the jobs before it leave all arms, as the server asks; by the arm that is there
   // first.
-  void plan(std::vector<MotionGoal>& goals, std::optional<double> speed, Planned& job) {
+  void plan(const std::vector<MotionGoal>& goals, Planned& job) {
     std::string why;
     TimePoint arrives = TimePoint::max();
-    for (MotionGoal& goal : goals) {
-      goal.speed = speed.value_or(goal.speed);
-      PlanQuestion question{.goal = goal, .at = rest_, .seed = job.place + 1};
+    for (const MotionGoal& goal : goals) {
+      PlanQuestion question{.goal = goal, .at = ahead_.rest, .seed = jobs_.size()};
       for (ArmId arm : all_arms(cell_)) {
         if (arm != goal.arm) question.may_move.push_back(arm);
       }
@@ -131,30 +106,26 @@ class Plan {
       arrives = there;
       job.trajectory = answer->timed.trajectory;
     }
-    if (job.trajectory) return;
-    ended_.emplace(job.key, std::pair(job.place, Reason::no_plan));
-    why_[job.key] = why;
+    if (!job.trajectory) job.result = {Reason::no_plan, why};
   }
 
-  void take(Planned job) {
+  void take(Planned& job) {
     for (ArmId arm : job.trajectory->arms()) {
       job.starts = std::max(job.starts, free_at_[arm.index()]);
     }
     for (ArmId arm : job.trajectory->arms()) free_at_[arm.index()] = job.ends();
-    set_joints(rest_, *job.trajectory, job.trajectory->goal());
-    by_key_.emplace(job.key, jobs_.size());
-    jobs_.push_back(std::move(job));
+    set_joints(ahead_.rest, *job.trajectory, job.trajectory->goal());
   }
 
   PlanningScenePtr scene_;
   const Cell& cell_;
-  Configuration rest_;
+  Scheduler scheduler_;  // without jobs, as are the names
+  JobRegister none_{scheduler_, {}};
+  JobIntake intake_;
+  JobIntake::Ahead ahead_;
   std::vector<TimePoint> free_at_;
-  std::size_t read_ = 0;
   std::vector<Planned> jobs_;
   std::map<std::string, std::size_t> by_key_;
-  Ended ended_;
-  std::map<std::string, std::string> why_;
 };
 
 // The instant at which a job begins: what has begun by then is under way or has ended, whatever the
@@ -176,7 +147,8 @@ class Instant final : public JobNames {
     }
     add_next(asked);
     for (std::size_t index = 0; index < plan.jobs().size(); ++index) {
-      const bool has_come = plan.jobs()[index].asked <= now_;
+      const Planned& job = plan.jobs()[index];
+      const bool has_come = job.trajectory && job.asked <= now_;
       if (has_come && !ended_.contains(index) && !ids_.contains(index)) add_next(index);
     }
   }
@@ -249,33 +221,31 @@ Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& poli
   auto scene = PlanningScene::build(cell);
   if (!scene) return failure(std::move(scene.error()));
   if (auto too_close = check_home(*scene); !too_close.empty()) return failure(std::move(too_close));
-  Plan plan(*scene);
+  Plan plan(*scene, cell, policy);
   Problems problems;
   for (const TimedJob& timed : jobs) plan.add(timed, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  std::vector<std::size_t> order(plan.jobs().size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  std::vector<CheckedJob> checked;
+  for (const Planned& job : plan.jobs()) {
+    if (job.trajectory) order.push_back(checked.size());
+    CheckView& view = checked.emplace_back(job.key).verdict;
+    view.kind = Verdict::Kind::conflict;
+    view.result = job.result;
+  }
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.jobs()[i].starts; });
   MotionChecker checker(*scene);
-  std::vector<CheckedJob> checked(jobs.size());
-  for (const auto& [key, how] : plan.ended()) {
-    CheckView& view = (checked[how.first] = {key, {}}).verdict;
-    view.kind = Verdict::Kind::conflict;
-    view.scene_version = 1;
-    view.result = JobResultView{how.second, plan.why(key)};
-  }
   std::vector<std::size_t> begun;
   for (std::size_t index : order) {
-    const auto& job = plan.jobs()[index];
-    checked[job.place].key = job.key;
-    CheckView& view = checked[job.place].verdict;
+    const Planned& job = plan.jobs()[index];
+    CheckView& view = checked[index].verdict;
     view = judged(Instant(plan, *cell, index, begun), cell, policy, checker);
-    view.scene_version = 1;
     // Counted from where it was judged.
     if (view.earliest_start_s) *view.earliest_start_s += to_seconds(job.starts - job.asked);
     begun.push_back(index);
   }
+  for (CheckedJob& job : checked) job.verdict.scene_version = 1;
   return checked;
 }
 

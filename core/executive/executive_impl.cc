@@ -108,15 +108,11 @@ void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
   const std::string blocked = jobs_.key(aside.blocked_job);
   const OwnJob kind = aside.to_start ? OwnJob::move_to_start : OwnJob::retreat;
-  const std::string name = aside.to_start  ? arm + " moves to the start of " + blocked
-                           : aside.returns ? arm + " returns to where it rested"
-                                           : arm + " retreats for " + blocked;
+  const std::string name = aside.to_start   ? arm + " moves to the start of " + blocked
+                           : !aside.returns ? arm + " retreats for " + blocked
+                           : aside.in_ring  ? arm + " returns to where it rested"
+                                            : arm + " returns to where it was left";
   jobs_.add(aside.job, {jobs_.own_key(kind), name});
-  if (aside.to_start) {
-    intake_.forget_way_back(aside.arm);
-  } else if (!aside.in_ring) {
-    intake_.remember_way_back(aside.arm, *scheduler_.find(aside.job)->trajectory);
-  }
 }
 
 void Executive::Impl::job_changed(JobId id) {

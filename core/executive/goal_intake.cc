@@ -64,12 +64,11 @@ std::vector<TrajectoryPtr> JobIntake::estimates_for(const std::vector<MotionGoal
                                                     Ahead& ahead) const {
   std::vector<TrajectoryPtr> estimates;
   for (const MotionGoal& goal : goals) {
-    // It goes there from wherever the arm stands: nobody has to go back first.
-    ahead.ways_back.erase(goal.arm);
     std::erase(ahead.open, goal.arm);
     const bool is_open = goals.size() > 1 || std::holds_alternative<LinkTarget>(goal.to);
     if (is_open) ahead.open.push_back(goal.arm);
     estimates.push_back(estimate(*cell_, goal, ahead.rest));
+    (void)ahead.ways_back.take(*cell_, *estimates.back(), ahead.rest);
   }
   return estimates;
 }

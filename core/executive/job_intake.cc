@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -82,7 +81,7 @@ std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
 }
 
 JobIntake::Ahead JobIntake::ahead() const {
-  return {scheduler_.predicted_rest(), {}, ways_back_, scheduler_.open_ends()};
+  return {scheduler_.predicted_rest(), {}, scheduler_.ways_back(), scheduler_.open_ends()};
 }
 
 Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
@@ -96,7 +95,6 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                 "the queue is full: " + std::to_string(active_max_.jobs) + " jobs have not ended"});
   }
   Problems problems;
-  std::vector<TrajectoryPtr> returns;
   const bool taken = jobs_.is_taken(request.key) || ahead.keys.contains(request.key);
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
@@ -122,7 +120,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     goals = read_goals(request, problems);
     if (problems.empty()) motions = estimates_for(goals, ahead);
   } else {
-    motions = read_motions(request, ahead, returns, problems);
+    motions = read_motions(request, ahead, problems);
     find_other_arm(*cell_, request.arm, motions, problems);
   }
   if (!problems.empty()) return failure(std::move(problems));
@@ -138,8 +136,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                      .alternatives = std::move(motions),
                      .goals = std::move(goals),
                      .terms = request.terms,
-                     .after = std::move(request.after),
-                     .returns = std::move(returns)};
+                     .after = std::move(request.after)};
 }
 
 std::optional<Problem> JobIntake::too_large(std::size_t bytes) const {
@@ -151,9 +148,8 @@ std::optional<Problem> JobIntake::too_large(std::size_t bytes) const {
                      ": send the job when others have ended, cancel some, or use fewer waypoints"};
 }
 
-// Its trajectory, or its alternatives; and what has to move first so that they can begin.
+// Returns its trajectory, or its alternatives.
 std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ahead& ahead,
-                                                   std::vector<TrajectoryPtr>& returns,
                                                    Problems& problems) const {
   std::vector<TrajectoryPtr> motions;
   const auto asked_for = request.motions();
@@ -165,7 +161,7 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
     if (motion) {
       *motion = with_whole_turns(*cell_, std::move(*motion), ahead.rest);
       begin_where_open(**motion, ahead);
-      for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
+      (void)ahead.ways_back.take(*cell_, **motion, ahead.rest);
       if (!ahead.begins_anywhere) {
         const bool is_moved = request.terms.move_to_start == MoveToStart::plan;
         find_start_elsewhere(*cell_, **motion, ahead.rest, found,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -21,8 +20,6 @@ struct PreparedJob {
   std::vector<MotionGoal> goals;  // one for each of the trajectories, which are then estimates
   JobTerms terms;
   std::vector<std::string> after;
-  // Motions of arms that have retreated, back to where the clients had left them.
-  std::vector<TrajectoryPtr> returns;
 };
 
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
@@ -43,30 +40,21 @@ class JobIntake {
   struct Ahead {
     Configuration rest;
     std::unordered_set<std::string> keys;
-    std::map<ArmId, TrajectoryPtr> ways_back;  // by arm that has retreated: the motion back
-    std::vector<ArmId> open = {};              // arms whose position in `rest` is not known yet
-    bool begins_anywhere = false;              // jobs need not begin at `rest`
-    std::size_t jobs = 0;                      // number of earlier jobs of the batch
-    std::size_t bytes = 0;                     // memory of their trajectories
+    WaysBack ways_back;
+    std::vector<ArmId> open = {};  // arms whose position in `rest` is not known yet
+    bool begins_anywhere = false;  // jobs need not begin at `rest`
+    std::size_t jobs = 0;          // number of earlier jobs of the batch
+    std::size_t bytes = 0;         // memory of their trajectories
   };
   [[nodiscard]] Ahead ahead() const;
   // Checks a request completely; stores nothing. Updates `ahead` for the next request of a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
   [[nodiscard]] Submit submission(PreparedJob prepared) const;
-  // Returns a job with this motion and priority that brings an arm back after a retreat.
-  [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
-
-  void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
-  // Call when the arm retreats along `way`. Remembers the motion back to where the clients had left
-  // the arm, also if the arm retreats several times.
-  void remember_way_back(ArmId arm, const Trajectory& way);
-  void forget_way_back(ArmId arm) { ways_back_.erase(arm); }
   // The server is ending: refuses all further jobs.
   void close() { is_closed_ = true; }
 
  private:
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
-                                                        std::vector<TrajectoryPtr>& returns,
                                                         Problems& problems) const;
   // Validates a motion; an implicit start is the position after the earlier jobs.
   [[nodiscard]] Result<TrajectoryPtr> validate_from(const TrajectoryRequest& asked,
@@ -84,14 +72,11 @@ class JobIntake {
   [[nodiscard]] std::optional<Problem> too_large(std::size_t bytes) const;
   void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
-  [[nodiscard]] std::vector<TrajectoryPtr> returns_for(const Trajectory& motion,
-                                                       Ahead& ahead) const;
 
   CellPtr cell_;
   const Scheduler& scheduler_;
   const JobRegister& jobs_;
   ActiveMax active_max_;
-  std::map<ArmId, TrajectoryPtr> ways_back_;
   bool is_closed_ = false;
 };
 

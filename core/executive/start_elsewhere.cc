@@ -10,7 +10,7 @@
 
 #include "core/base/rounding_noise.h"
 #include "core/base/whole_turns.h"
-#include "core/trajectory/implicit_start.h"
+#include "core/trajectory/joints_elsewhere.h"
 
 namespace armloom {
 
@@ -48,11 +48,9 @@ bool is_gripper_joint(const Cell& cell, JointId id) {
   return arm && std::ranges::count(cell.arm(*arm).gripper_joints, id) > 0;
 }
 
-// Adds a problem if joint `j` of the trajectory begins elsewhere than it `stands`.
-void compare_start(const Cell& cell, JointId id, std::size_t j, double begins, double stands,
-                   Problems& problems) {
-  const Joint& joint = cell.joint(id);
-  if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) return;
+Problem problem_of(const Cell& cell, const JointElsewhere& elsewhere) {
+  const Joint& joint = cell.joint(elsewhere.joint);
+  const double begins = elsewhere.begins, stands = elsewhere.stands;
   char text[256];
   std::snprintf(
       text, sizeof text,
@@ -64,24 +62,22 @@ void compare_start(const Cell& cell, JointId id, std::size_t j, double begins, d
   if (joint.kind != JointKind::prismatic) {
     detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);
   }
-  detail += is_gripper_joint(cell, id)
+  detail += is_gripper_joint(cell, elsewhere.joint)
                 ? "; begin there, or move the gripper there first (\"move_to\")"
                 : "; begin there, or give the first waypoint a time above 0 in which the arm "
                   "may get to it, or let the server move the arm to the start "
                   "(\"move_to_start\": \"plan\")";
-  problems.push_back({ProblemKind::invalid, "start-mismatch",
-                      "/points/0/positions/" + std::to_string(j), std::move(detail), begins});
+  return {ProblemKind::invalid, "start-mismatch",
+          "/points/0/positions/" + std::to_string(elsewhere.place), std::move(detail), begins};
 }
 
 }  // namespace
 
 void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
                           Problems& problems, Compared compared) {
-  for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-    const JointId id = trajectory.joints()[j];
-    if (compared == Compared::gripper_joints && !is_gripper_joint(cell, id)) continue;
-    compare_start(cell, id, j, trajectory.start()[static_cast<Eigen::Index>(j)],
-                  rest[static_cast<Eigen::Index>(id.index())], problems);
+  for (const JointElsewhere& one : joints_elsewhere(cell, trajectory, rest)) {
+    const bool counts = compared == Compared::all_joints || is_gripper_joint(cell, one.joint);
+    if (counts) problems.push_back(problem_of(cell, one));
   }
 }
 
@@ -89,10 +85,17 @@ void find_start_elsewhere(const Cell& cell, const TrajectoryRequest& request,
                           const Configuration& rest, Problems& problems) {
   if (request.points.empty()) return;
   const std::vector<double>& begins = request.points.front().positions;
-  for (std::size_t j = 0; j < std::min(begins.size(), request.joint_names.size()); ++j) {
-    const auto id = find_joint(request.joint_names[j], request.arm, cell);
-    if (!id || !std::isfinite(begins[j])) continue;
-    compare_start(cell, *id, j, begins[j], rest[static_cast<Eigen::Index>(id->index())], problems);
+  if (begins.size() != request.joint_names.size()) return;
+  std::vector<JointId> joints;
+  for (const std::string& name : request.joint_names) {
+    const auto joint = find_joint(name, request.arm, cell);
+    if (!joint) return;
+    joints.push_back(*joint);
+  }
+  const auto size = static_cast<Eigen::Index>(begins.size());
+  const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(begins.data(), size);
+  for (const JointElsewhere& one : joints_elsewhere(cell, joints, start, rest)) {
+    problems.push_back(problem_of(cell, one));
   }
 }
 

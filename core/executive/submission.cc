@@ -12,7 +12,6 @@ Result<JobView> Executive::Impl::submit(JobRequest request) {
   JobIntake::Ahead ahead = intake_.ahead();
   auto prepared = intake_.prepare(std::move(request), ahead);
   if (!prepared) return failure(std::move(prepared.error()));
-  intake_.accepted(std::move(ahead));
   return accept(std::move(*prepared));
 }
 
@@ -45,17 +44,10 @@ Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobReq
     }
   }
   if (!problems.empty()) return failure(std::move(problems));
-  intake_.accepted(std::move(ahead));
   return all;
 }
 
 JobView Executive::Impl::accept(PreparedJob prepared) {
-  for (TrajectoryPtr& back : prepared.returns) {
-    std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
-    Submit way = intake_.return_of(std::move(back), prepared.terms.priority);
-    way.job = scheduler_.next_job();
-    enter(std::move(way), {jobs_.own_key(OwnJob::retreat), std::move(name)});
-  }
   const JobId id = scheduler_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
   if (label.key.empty()) label.key = jobs_.free_key(id);
@@ -70,7 +62,7 @@ void Executive::Impl::enter(Submit submitted, JobLabel label) {
   label.bytes = submitted.alternatives.empty() ? submitted.trajectory->bytes()
                                                : bytes_of(submitted.alternatives);
   jobs_.add(submitted.job, std::move(label));
-  submitted.start_is_recorded = !submitted.system_job && execution_.starts().has_log();
+  submitted.start_is_recorded = execution_.starts().has_log();
   step(submitted);
 }
 

@@ -255,7 +255,13 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
     view.self_clearance_bound_m = outcome.clearance_bound->self_m;
   }
   view.evaluations = outcome.evaluations;
-  for (const Wait& wait : outcome.waits) view.waits_on.push_back(view_of(wait, cell, names));
+  for (Wait wait : outcome.waits) {
+    if (wait.job && outcome.added.contains(*wait.job)) {
+      wait.job.reset();
+      wait.detail = "a motion that the server would add and run first";
+    }
+    view.waits_on.push_back(view_of(wait, cell, names));
+  }
   if (view.kind != Verdict::Kind::free) view.conflicts = view.waits_on;
   if (step.has_ended()) view.result = result_of(step, view.waits_on, cell, names);
   return view;

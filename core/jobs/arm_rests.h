@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/jobs/step.h"
+#include "core/jobs/ways_back.h"
 #include "core/model/cell.h"
 #include "core/sequence/safe_sequence.h"
 
@@ -43,6 +44,8 @@ class ArmRests {
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
 
+  [[nodiscard]] WaysBack& ways_back() { return ways_back_; }
+  [[nodiscard]] const WaysBack& ways_back() const { return ways_back_; }
   // Of several stops, the first one counts; a stop until the connection is replaced by any other.
   void stop(ArmId arm, std::string cause, bool until_connected = false);
   void resume(ArmId arm) { stopped_[arm.index()].reset(); }
@@ -58,11 +61,9 @@ class ArmRests {
   [[nodiscard]] std::optional<Wait> stop_of(const Step& step) const;
 
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
-  // Returns the first joint whose rest differs from the trajectory's start by more than
-  // execution.start_tolerance_rad. With `arm`, compares only the joints of that arm.
-  [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
-                                                        const Trajectory& trajectory,
-                                                        std::optional<ArmId> arm = {}) const;
+  // Returns true if there are joints_elsewhere() than at rest.
+  [[nodiscard]] bool begins_elsewhere(const Cell& cell, const Trajectory& trajectory,
+                                      std::optional<ArmId> arm = {}) const;
   // Returns the detail of Reason::start_mismatch; nullopt without a mismatch.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
@@ -72,11 +73,9 @@ class ArmRests {
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
   std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of unlocated arms
   std::vector<TrajectoryPtr> came_by_;
+  WaysBack ways_back_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves
 };
-
-// Returns true if `place` is the motion's start, within execution.start_tolerance_rad.
-[[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
 
 }  // namespace armloom

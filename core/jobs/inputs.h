@@ -26,7 +26,7 @@ struct Policy;
 // A valid job arrives. Its id exceeds all earlier ids (Scheduler::next_job()), or belongs to an
 // earlier session.
 struct Submit {
-  JobId job;
+  JobId job{0};
   TrajectoryPtr trajectory;
   JobTerms terms = {};
   // Trajectories by which different arms can do the same work, `trajectory` first. Empty, or at
@@ -194,11 +194,12 @@ struct Brake {
 // of:
 // - a retreat, because `arm` rests in the path of `blocked_job`; with `in_ring`, the arm has a job
 //   in the same deadlock cycle, and the retreat goes before that job
-// - a return (`returns`), which brings the arm back after `blocked_job` has passed
+// - a return (`returns`): in a cycle, it brings the arm back after `blocked_job` has passed;
+//   otherwise to where clients left it, because `blocked_job` begins there
 // - a move-to-start (`to_start`) along a planned path to the start of `blocked_job`
 // Reported before the first JobChanged of `job`.
 struct YieldMove {
-  JobId job;
+  JobId job{0};
   ArmId arm;
   JobId blocked_job;
   bool in_ring = false;

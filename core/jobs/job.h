@@ -16,7 +16,7 @@ struct Errand {
   std::optional<JobId> lets_pass = {};  // this job does not begin while that job waits
 };
 
-// What the steps of a job share.
+// The facts that the steps of a job share.
 struct Job {
   JobId id;
   JobTerms terms = {};

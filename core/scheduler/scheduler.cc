@@ -23,6 +23,7 @@
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/without_orders.h"
 #include "core/scheduler/yielding/errands.h"
+#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -149,7 +150,9 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
 }
 
 void Scheduler::on(const Submit& input) {
+  Configuration rest = predicted_rest();
   add(state_, step_of(state_, input));
+  bring_back(state_, input, std::move(rest));
   reopen_turn(state_, state_.jobs.at(input.job));
 }
 

@@ -54,6 +54,8 @@ class Scheduler {
   // Returns where every joint will be when all accepted jobs have succeeded (rad, m), or where the
   // arm comes to rest if its last job is being canceled. A new job must begin there.
   [[nodiscard]] Configuration predicted_rest() const;
+  // Returns where clients left the arms that have retreated: a new job may begin there, too.
+  [[nodiscard]] const WaysBack& ways_back() const { return state_.arms.ways_back(); }
   // Returns the arms for which predicted_rest() is an estimate, because the arm's last goal is a
   // pose without a plan, because a job may still go to this arm or to another one, or because the
   // arm brakes and its controller has not told where it will rest.

@@ -18,9 +18,9 @@ void Trial::step(const Input& input) {
     if (auto* judge = std::get_if<Judge>(&effect)) open_.question = std::move(judge->question);
     if (auto* plan = std::get_if<PlanMotion>(&effect)) open_.plans.push_back(std::move(*plan));
     const auto* sent = std::get_if<YieldMove>(&effect);
-    if (sent != nullptr && sent->to_start && sent->blocked_job == job_) {
-      approaches_.push_back(sent->job);
-    }
+    if (sent == nullptr) continue;
+    added_.insert(sent->job);
+    if (sent->to_start && sent->blocked_job == job_) approaches_.push_back(sent->job);
   }
   const Step* own = scheduler_.find(job_);
   if (own == nullptr) return;  // of those that come before it
@@ -112,7 +112,7 @@ std::vector<Wait> Trial::waits() const {
 
 Trial::Outcome Trial::outcome() const {
   const Step& step = *scheduler_.find(job_);
-  Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_};
+  Outcome outcome{.kind = Verdict::Kind::conflict, .evaluations = evaluations_, .added = added_};
   outcome.step = step;
   if (is_on_its_way()) outcome.approach = approach_ends();
   if (step.has_authority() || is_on_its_way()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/scheduler/scheduler.h"
@@ -46,6 +47,7 @@ class Trial {
     std::uint64_t evaluations = 0;  // of all questions about the job
     // If its arms are moved to its start: time until they are there.
     std::optional<Duration> approach = {};
+    std::set<JobId> added = {};     // jobs of the server, which exist only in the trial
     std::optional<Step> step = {};  // of the job: its final state in the trial
   };
   // Returns the outcome. Precondition: next() and next_plan() return nullopt. If the arms must
@@ -70,7 +72,8 @@ class Trial {
   JobId job_;
   TimePoint now_;
   Open open_;
-  std::vector<JobId> approaches_;  // moves to the job's start
+  std::set<JobId> added_;          // by the server, in the trial
+  std::vector<JobId> approaches_;  // of these: moves to the job's start
   int judgements_ = 0;
   int plans_ = 0;
   std::optional<Verdict> last_;       // about the job, alone or with others

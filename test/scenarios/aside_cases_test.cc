@@ -98,10 +98,14 @@ TEST_P(Retreat, TakesAnIdleArmBackWhereItCameFrom) {
 TEST_P(Retreat, IsReversedForAJobThatStartsAtTheOldPosition) {
   start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
-  cell->submit(slide("x", 0, 1, 2, "goes on"));
+  // The second job counts on the return before the first.
+  ASSERT_TRUE(submit_batch(cell->simulation->executive(),
+                           {slide("x", 0, 0.5, 2, "goes on"), slide("x", 0.5, 1, 2, "then")},
+                           true));
   cell->run_to_the_end(at(40s));
+  EXPECT_EQ(cell->job("retreat-2").name, "x returns to where it was left");
   EXPECT_EQ(cell->job("retreat-2").state, JobState::succeeded);
-  EXPECT_EQ(cell->job("goes on").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("then").state, JobState::succeeded);
   EXPECT_NEAR(cell->log.last[0], 1.0, 1e-3);
 }
 

@@ -76,5 +76,22 @@ TEST(DryRun, ReportsTheEndOfAGoalWithoutAPathAndOfItsSuccessor) {
   EXPECT_EQ(checked->at(2).verdict.kind, Verdict::Kind::free);
 }
 
+TEST(DryRun, NamesNoJobOfTheFileForARetreat) {
+  CellDescription description = crossing_description();
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;
+  description.execution.velocity_scaling_factor = 0.1;  // a slow retreat
+  const auto cell = build_cell(description);
+  ASSERT_TRUE(cell);
+  const auto checked = check_jobs(*cell, "earliest_start",
+                                  {{at(0s), slide("x", -1, 0, 2, "into the middle")},
+                                   {at(9s), slide("y", -1, 1, 2, "passes")}});
+  ASSERT_TRUE(checked) << checked.error().front().detail;
+  ASSERT_EQ(checked->at(1).verdict.waits_on.size(), 1U);
+  const WaitView& wait = checked->at(1).verdict.waits_on[0];
+  EXPECT_EQ(wait.kind, Wait::Kind::job);
+  EXPECT_EQ(wait.job, "");
+  EXPECT_EQ(wait.detail, "a motion that the server would add and run first");
+}
+
 }  // namespace
 }  // namespace armloom

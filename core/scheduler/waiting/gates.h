@@ -24,13 +24,14 @@ class FoundWaits {
   std::span<const Wait> found_;
 };
 
-// What a condition is checked for: without turns, an admitted job or one that shall be admitted
-// with others; with turns, the next check of a waiting job, as far ahead as the policy looks.
+// The view in which a condition is checked: without turns, an admitted job or one that shall be
+// admitted with others; with turns, the next check of a waiting job, as far ahead as the policy
+// looks.
 struct Look {
   const State& state;
   const Turns* turns = nullptr;
 };
-// What a closed condition blocks.
+// The part of a job's way that a closed condition blocks.
 enum class Blocks {
   check,  // the check of a waiting job
   place,  // also its place in a round (capacity.h)

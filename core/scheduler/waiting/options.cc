@@ -7,6 +7,8 @@
 #include "core/policies/policy.h"
 #include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/gates.h"
+#include "core/trajectory/joints_elsewhere.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -50,7 +52,7 @@ std::vector<Option> in_any_order(const State& state, const Step& turn) {
 enum class When { now, later, never };
 When when_on(const State& state, const Step& step, const Trajectory& trajectory) {
   const ArmId arm = arm_of(trajectory);
-  const Place* leads_to = nullptr;
+  Configuration at = state.arms.rest();
   std::size_t admitted = 0;
   bool is_next = true;
   const std::size_t place = place_on(state, step, arm);
@@ -59,14 +61,9 @@ When when_on(const State& state, const Step& step, const Trajectory& trajectory)
     const Step& other = state.jobs.at(id);
     if (other.is_admitted()) ++admitted;
     is_next = is_next && other.is_admitted();
-    for (std::size_t i = 0; i < other.leg.arms.size(); ++i) {
-      if (other.leg.arms[i] == arm) leads_to = other.leg.to[i].get();
-    }
+    follow_to_end(at, *state.cell, arm, *other.trajectory);
   }
-  const bool begins = leads_to != nullptr
-                          ? begins_at(*state.cell, trajectory, *leads_to)
-                          : !state.arms.begins_elsewhere(*state.cell, trajectory).has_value();
-  if (!begins) return When::never;
+  if (!joints_elsewhere(*state.cell, trajectory, at).empty()) return When::never;
   return is_next && admitted < state.policy->lookahead.horizon ? When::now : When::later;
 }
 

@@ -6,6 +6,7 @@
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
+#include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
 
@@ -22,18 +23,12 @@ bool send_to_start(State& state, Step& head, ArmId arm) {
   TrajectoryPtr way =
       line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to, speed);
   if (!way) return false;
-  const JobId id = state.jobs.next_id();
-  const Submit job{.job = id,
-                   .trajectory = std::move(way),
-                   .terms = {.priority = head.job->terms.priority,
-                             .backlog_timeout = head.job->terms.backlog_timeout,
-                             .on_timeout = head.job->terms.on_timeout},
-                   .goals = {{.arm = arm, .to = to, .speed = speed}},
-                   .system_job = true};
-  const Errand errand{.on_behalf_of = head.job->errand.on_behalf_of, .before = head.id.job};
-  add(state, step_of(state, job, errand));
-  state.decided.sent_aside.push_back(
-      {.job = id, .arm = arm, .blocked_job = head.id.job, .to_start = true});
+  Submit job{.trajectory = std::move(way),
+             .terms = {.backlog_timeout = head.job->terms.backlog_timeout,
+                       .on_timeout = head.job->terms.on_timeout},
+             .goals = {{.arm = arm, .to = to, .speed = speed}}};
+  const YieldMove told{.arm = arm, .blocked_job = head.id.job, .to_start = true};
+  (void)add_own(state, told, std::move(job), head.id.job);
   return true;
 }
 

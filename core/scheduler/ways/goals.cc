@@ -7,6 +7,7 @@
 #include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/path_requests.h"
+#include "core/trajectory/joints_elsewhere.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -15,8 +16,8 @@ namespace {
 // The arm is where it was, or was to be, when the question was asked.
 bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at, ArmId arm) {
   const auto& joints = state.cell->arm(arm).joints;
-  return (joints_of(way.request.beside, joints) - joints_of(at, joints)).cwiseAbs().maxCoeff() <=
-         state.cell->execution.start_tolerance_rad;
+  const Eigen::VectorXd asked = joints_of(way.request.beside, joints);
+  return joints_elsewhere(*state.cell, joints, asked, at).empty();
 }
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.

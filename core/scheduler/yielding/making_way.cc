@@ -6,44 +6,47 @@
 #include "core/trajectory/joint_line.h"
 
 namespace armloom {
-namespace {
 
-JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::optional<JobId> goes) {
-  const JobId id = state.jobs.next_id();
-  const JobId helped = goes ? *move.before : move.blocked_job;
-  const Step& blocked = state.jobs.at(move.blocked_job);
-  Submit job{.job = id,
-             .trajectory = std::move(way),
-             .terms = {.priority = blocked.job->terms.priority},
-             .system_job = true};
-  Errand errand{.on_behalf_of = state.jobs.at(helped).job->errand.on_behalf_of,
-                .before = move.before};
+JobId add_own(State& state, YieldMove told, Submit job, std::optional<JobId> before,
+              std::optional<JobId> goes) {
+  told.job = job.job = state.jobs.next_id();
+  job.system_job = true;
+  job.terms.priority = state.jobs.at(told.blocked_job).job->terms.priority;
+  const Step& helped = state.jobs.at(goes ? *before : told.blocked_job);
+  Errand errand{.on_behalf_of = helped.job->errand.on_behalf_of, .before = before};
   if (goes) {
     job.after = {*goes};
-    errand.lets_pass = move.blocked_job;
+    errand.lets_pass = told.blocked_job;
   }
   add(state, step_of(state, job, errand));
-  state.decided.sent_aside.push_back(
-      {id, move.arm, move.blocked_job, move.before.has_value(), goes.has_value()});
-  return id;
+  state.decided.sent_aside.push_back(told);
+  return told.job;
 }
-
-// It gains nothing by the arm's return, where it begins elsewhere anyway.
-bool begins_there(const State& state, const Step& next, ArmId arm) {
-  return !state.arms.begins_elsewhere(*state.cell, *next.trajectory, arm);
-}
-
-}  // namespace
 
 void send_aside(State& state, const YieldTrial& move) {
   Step* next = move.before ? &state.jobs.at(*move.before) : nullptr;
-  const bool returns = next != nullptr && !next->goal && begins_there(state, *next, move.arm);
-  const JobId goes = add_own(state, move, move.way, std::nullopt);
-  if (returns) (void)add_own(state, move, retraced(*move.way), goes);
+  const bool returns = next != nullptr && !next->goal &&
+                       !state.arms.begins_elsewhere(*state.cell, *next->trajectory, move.arm);
+  YieldMove told{.arm = move.arm, .blocked_job = move.blocked_job, .in_ring = next != nullptr};
+  const JobId goes = add_own(state, told, {.trajectory = move.way}, move.before);
+  if (!told.in_ring) state.arms.ways_back().retreat(move.arm, *move.way);
+  told.returns = returns;
+  if (returns) (void)add_own(state, told, {.trajectory = retraced(*move.way)}, move.before, goes);
   if (next == nullptr || !next->goal) return;
   state.jobs.change(*next).errand.lets_pass =
       move.blocked_job;  // a goal begins wherever the arm stands by then
   state.lanes.renew_later();
+}
+
+void bring_back(State& state, const Submit& job, Configuration rest) {
+  auto motions = job.alternatives;
+  if (motions.empty()) motions = {job.trajectory};
+  for (const TrajectoryPtr& motion : motions) {
+    for (TrajectoryPtr& way : state.arms.ways_back().take(*state.cell, *motion, rest)) {
+      const YieldMove told{.arm = way->arms().front(), .blocked_job = job.job, .returns = true};
+      (void)add_own(state, told, {.trajectory = std::move(way)}, job.job);
+    }
+  }
 }
 
 }  // namespace armloom

@@ -9,19 +9,12 @@
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/ways/approach.h"
 #include "core/trajectory/joint_line.h"
+#include "core/trajectory/joints_elsewhere.h"
 #include "core/trajectory/set_joints.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
 namespace {
-
-Eigen::VectorXd standing(const std::vector<JointId>& joints, const Configuration& rest) {
-  Eigen::VectorXd q(static_cast<Eigen::Index>(joints.size()));
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    q[static_cast<Eigen::Index>(j)] = rest[static_cast<Eigen::Index>(joints[j].index())];
-  }
-  return q;
-}
 
 // Returns the arm's joints at `end`, the motion's start or goal. Joints that the motion does not
 // move stay as in `here`.
@@ -42,18 +35,15 @@ Eigen::VectorXd end_of(const Trajectory& motion, const Eigen::VectorXd& end,
 // - lines to its home and to the named poses of its group, except where it rests already
 std::vector<TrajectoryPtr> ways_aside(const Cell& cell, ArmId arm, const Configuration& rest,
                                       const TrajectoryPtr& came_by) {
-  const double tolerance = cell.execution.start_tolerance_rad;
-  const auto apart = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return (a - b).cwiseAbs().maxCoeff();
-  };
   std::vector<TrajectoryPtr> ways;
   const Arm& description = cell.arm(arm);
-  const Eigen::VectorXd here = standing(description.joints, rest);
+  const Eigen::VectorXd here = joints_of(rest, description.joints);
   const auto add = [&](const Eigen::VectorXd& pose) {
-    if (pose.size() != here.size() || apart(pose, here) <= tolerance) return;
+    if (pose.size() != here.size()) return;
+    if (joints_elsewhere(cell, description.joints, pose, rest).empty()) return;
     if (auto line = joint_line(cell, description.joints, here, pose)) ways.push_back(*line);
   };
-  if (came_by && apart(came_by->goal(), standing(came_by->joints(), rest)) <= tolerance) {
+  if (came_by && joints_elsewhere(cell, came_by->joints(), came_by->goal(), rest).empty()) {
     ways.push_back(retraced(*came_by));
   } else if (came_by) {
     add(end_of(*came_by, came_by->start(), description.joints, here));
@@ -241,8 +231,7 @@ bool is_counted_on(const State& state, const Step& own) {
   if (next == queue.end()) return false;
   if (state.jobs.at(*next).goal) return false;  // begins wherever the arm stands
   if (own.has_started()) return true;
-  return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).trajectory, arm)
-      .has_value();
+  return state.arms.begins_elsewhere(*state.cell, *state.jobs.at(*next).trajectory, arm);
 }
 
 }  // namespace armloom
