@@ -195,11 +195,6 @@ std::vector<const Job*> occupying(const JobBook& book) {
   return jobs;
 }
 
-bool is_at_head(const JobBook& book, const Record& record) {
-  return record.job.after.empty() && !lets_another_pass(book, record) &&
-         book.queues().is_first(record.job);
-}
-
 bool lets_another_pass(const JobBook& book, const Record& record) {
   return record.errand.lets_pass && book.is_active(*record.errand.lets_pass) &&
          book.at(*record.errand.lets_pass).job.is_waiting();

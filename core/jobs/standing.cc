@@ -55,11 +55,6 @@ bool holds_one_ahead(const State& state, const Record& record) {
   });
 }
 
-bool stands(const State& state, const Record& record) {
-  const bool behind = record.job.in<Admitted>() != nullptr && !is_at_head(state.jobs, record);
-  return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
-}
-
 std::optional<JobId> may_go_first(const State& state, const Record& record) {
   const Job& job = record.job;
   if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;

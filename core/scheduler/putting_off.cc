@@ -6,6 +6,7 @@
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/detour.h"
 
 namespace armloom {
@@ -53,7 +54,7 @@ void stay_queued(State& state, Record& record, Judgement found) {
     state.jobs.changed(record);
   }
   judgement_of(record) = std::move(found);
-  if (!record.ages_from && is_at_head(state.jobs, record)) {
+  if (!record.ages_from && is_at_head(state, record)) {
     record.ages_from = {state.now, state.clock()};
   }
   state.jobs.set_waits(record, record.job.judgement().found);
@@ -78,7 +79,7 @@ void put_off(State& state, Record& record, std::vector<Wait> waits) {
   for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(record.job, wait);
   state.jobs.set_waits(record, waits);
   judgement_of(record) = {state.version, std::move(waits)};
-  if (!is_at_head(state.jobs, record)) return;  // it has had no turn yet
+  if (!is_at_head(state, record)) return;  // it has had no turn yet
   if (!record.ages_from) record.ages_from = {state.now, state.clock()};
   const auto* queued = record.job.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {

@@ -236,6 +236,18 @@ std::optional<ClosedGate> first_closed(const State& state, const Record& record,
   return std::nullopt;
 }
 
+bool is_at_head(const State& state, const Record& record) {
+  const auto by_jobs = [](const Gate& gate) {
+    return blocks_start(gate) && !is_ended_by_client(gate);
+  };
+  return !first_closed(state, record, by_jobs);
+}
+
+bool stands(const State& state, const Record& record) {
+  const bool behind = record.job.in<Admitted>() != nullptr && !is_at_head(state, record);
+  return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
+}
+
 WaitsFor waits_for(const State& state) {
   Edges edges;
   add_behind(state, edges);

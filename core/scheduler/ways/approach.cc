@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
 #include "core/trajectory/joint_line.h"
@@ -65,7 +67,7 @@ std::optional<JobId> next_in_question(const State& state) {
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
     const Record& head = state.jobs.at(queue.front());
-    if (head.approaches.are_in_question() && is_at_head(state.jobs, head)) return head.job.id;
+    if (head.approaches.are_in_question() && is_at_head(state, head)) return head.job.id;
   }
   return std::nullopt;
 }
@@ -107,7 +109,7 @@ void fail_impossible_starts(State& state) {
     if (queue.empty()) continue;
     Record& head = state.jobs.at(queue.front());
     const Job& job = head.job;
-    if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
+    if (!job.is_waiting() || job.has_started() || !is_at_head(state, head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (job.is_held_over && state.arms.stop_of(job)) continue;
