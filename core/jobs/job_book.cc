@@ -198,10 +198,6 @@ std::vector<const Step*> occupying(const JobBook& book) {
   return steps;
 }
 
-bool is_at_head(const JobBook& book, const Step& step) {
-  return step.job->after.empty() && !lets_another_pass(book, step) && book.queues().is_first(step);
-}
-
 bool lets_another_pass(const JobBook& book, const Step& step) {
   const auto& other = step.job->errand.lets_pass;
   return other && book.is_active(*other) && book.at(*other).is_waiting();

@@ -111,9 +111,7 @@ class JobBook {
 
 // Returns the jobs that are admitted, braking or held.
 [[nodiscard]] std::vector<const Step*> occupying(const JobBook& book);
-// Returns true if the job is the first in the queues of its arms, no job in `after` remains, and it
-// lets no other job pass first.
-[[nodiscard]] bool is_at_head(const JobBook& book, const Step& step);
+// Returns true if the job first lets another job pass that waits.
 [[nodiscard]] bool lets_another_pass(const JobBook& book, const Step& step);
 // Returns these jobs sorted by Job::turn, except that jobs of the same arm keep the order of its
 // queue.

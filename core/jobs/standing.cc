@@ -52,11 +52,6 @@ bool holds_one_ahead(const State& state, const Step& step) {
   });
 }
 
-bool stands(const State& state, const Step& step) {
-  const bool behind = step.in<Admitted>() != nullptr && !is_at_head(state.jobs, step);
-  return step.is_waiting() || behind || held_where_it_stands(state, step).has_value();
-}
-
 std::optional<JobId> may_go_first(const State& state, const Step& step) {
   if (step.goal || step.in<Queued>() == nullptr) return std::nullopt;
   if (state.jobs.undecided().empty()) return std::nullopt;

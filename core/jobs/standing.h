@@ -19,8 +19,6 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // Returns true if one of the job's arms rests in the path of an admitted motion that precedes the
 // job in an arm queue.
 [[nodiscard]] bool holds_one_ahead(const State& state, const Step& step);
-// Returns true if the job cannot move before other jobs have moved.
-[[nodiscard]] bool stands(const State& state, const Step& step);
 
 // Returns an earlier job with an undecided arm that may yet bring an arm to this job's start.
 // nullopt if there is none, or if the arms are already there.

@@ -6,6 +6,7 @@
 #include "core/coordination/effort.h"
 #include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/detour.h"
 
 namespace armloom {
@@ -53,7 +54,7 @@ void stay_queued(State& state, Step& step, Judgement found) {
     state.jobs.changed(step);
   }
   judgement_of(step) = std::move(found);
-  if (!step.ages_from && is_at_head(state.jobs, step)) {
+  if (!step.ages_from && is_at_head(state, step)) {
     step.ages_from = {state.now, state.clock()};
   }
   state.jobs.set_waits(step, step.judgement().found);
@@ -78,7 +79,7 @@ void put_off(State& state, Step& step, std::vector<Wait> waits) {
   for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(step, wait);
   state.jobs.set_waits(step, waits);
   judgement_of(step) = {state.version, std::move(waits)};
-  if (!is_at_head(state.jobs, step)) return;  // it has had no turn yet
+  if (!is_at_head(state, step)) return;  // it has had no turn yet
   if (!step.ages_from) step.ages_from = {state.now, state.clock()};
   const auto* queued = step.in<Queued>();
   if (queued != nullptr && !queued->in_backlog) {

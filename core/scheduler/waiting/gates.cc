@@ -233,6 +233,18 @@ std::optional<ClosedGate> first_closed(const State& state, const Step& step,
   return std::nullopt;
 }
 
+bool is_at_head(const State& state, const Step& step) {
+  const auto by_jobs = [](const Gate& gate) {
+    return blocks_start(gate) && !is_ended_by_client(gate);
+  };
+  return !first_closed(state, step, by_jobs);
+}
+
+bool stands(const State& state, const Step& step) {
+  const bool behind = step.in<Admitted>() != nullptr && !is_at_head(state, step);
+  return step.is_waiting() || behind || held_where_it_stands(state, step).has_value();
+}
+
 WaitsFor waits_for(const State& state) {
   Edges edges;
   add_behind(state, edges);

@@ -71,6 +71,11 @@ struct ClosedGate {
 [[nodiscard]] std::optional<ClosedGate> first_closed(const State& state, const Step& step,
                                                      bool (*counts)(const Gate&));
 
+// Returns true if the job waits for no other job before its start.
+[[nodiscard]] bool is_at_head(const State& state, const Step& step);
+// Returns true if the job cannot move before other jobs have moved.
+[[nodiscard]] bool stands(const State& state, const Step& step);
+
 // Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);
 // Returns the part of the graph with these jobs and all that they wait for. Takes time only for

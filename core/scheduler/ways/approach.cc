@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/jobs/phases.h"
+#include "core/jobs/standing.h"
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/goals.h"
 #include "core/scheduler/yielding/making_way.h"
@@ -59,7 +61,7 @@ std::optional<JobId> next_in_question(const State& state) {
   for (const auto& queue : state.jobs.queues()) {
     if (queue.empty()) continue;
     const Step& head = state.jobs.at(queue.front());
-    if (head.approaches.are_in_question() && is_at_head(state.jobs, head)) return head.id.job;
+    if (head.approaches.are_in_question() && is_at_head(state, head)) return head.id.job;
   }
   return std::nullopt;
 }
@@ -101,7 +103,7 @@ void fail_impossible_starts(State& state) {
     const auto& queue = state.jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
     Step& head = state.jobs.at(queue.front());
-    if (!head.is_waiting() || head.has_started() || !is_at_head(state.jobs, head)) continue;
+    if (!head.is_waiting() || head.has_started() || !is_at_head(state, head)) continue;
     if (head.goal) continue;  // its way begins where the arm stands
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (head.job->is_held_over && state.arms.stop_of(head)) continue;
