@@ -29,13 +29,14 @@ void pause_at_rest(State& state, Record& record) {
 
 void dispatch_if_ready(State& state, Record& record) {
   Job& job = record.job;
-  const auto closed = first_closed(state, record, blocks_start);
-  if (closed && !is_ended_by_client(closed->gate)) return;
+  if (!is_at_head(state, record)) return;
   if (!record.ages_from) record.ages_from = {state.now, state.clock()};
   if (!job.has_started() && state.arms.start_mismatch(*state.cell, *job.trajectory)) {
     return withdraw(state, record, {});
   }
-  if (closed) return state.jobs.set_waits(record, closed->waits.all());
+  if (const auto closed = first_closed(state, record, blocks_start)) {
+    return state.jobs.set_waits(record, closed->waits.all());
+  }
   if (record.asking.is_in_question) return;
   const Duration limit = state.graph.limit(job.step());
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {

@@ -35,7 +35,7 @@ auto* pause_of(JobType& job) {
 void see_whether_in_vain(const State& state, Record& record) {
   Pause* pause = pause_of(record.job);
   if (pause == nullptr) return;
-  if (first_closed(state, record, is_ended_by_client)) return pause->in_vain_since.reset();
+  if (any_closed(state, record, is_ended_by_client)) return pause->in_vain_since.reset();
   const bool held = record.job.in<Held>() != nullptr;
   if (held && !state.is_judged(record.job)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, record);

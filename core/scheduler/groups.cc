@@ -34,7 +34,7 @@ bool may_follow(const State& state, const Record& record) {
     return blocks_start(gate) && gate.ended_by != EndedBy::queue;
   };
   return record.job.is_waiting() && !record.job.is_unplanned() &&
-         !first_closed(state, record, blocks_group) && state.lanes.follows_on(record.job.step()) &&
+         !any_closed(state, record, blocks_group) && state.lanes.follows_on(record.job.step()) &&
          !holds_one_ahead(state, record);
 }
 

@@ -25,7 +25,7 @@ void compare_again(State& state) {
     Record& record = state.jobs.at(id);
     record.asking.is_in_question = true;
     const bool is_kept =
-        record.job.in<Admitted>() != nullptr && first_closed(state, record, is_ended_by_client);
+        record.job.in<Admitted>() != nullptr && any_closed(state, record, is_ended_by_client);
     if (is_kept) withdraw(state, record, {});
   }
   ++state.version;

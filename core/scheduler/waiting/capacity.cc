@@ -14,7 +14,7 @@ bool stands_in_vain(const State& state, const Record& record) {
   const auto ended_by_jobs = [](const Gate& gate) {
     return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::client;
   };
-  return record.job.is_waiting() ? first_closed(state, record, ended_by_jobs).has_value()
+  return record.job.is_waiting() ? any_closed(state, record, ended_by_jobs)
                                  : held_where_it_stands(state, record).has_value();
 }
 
@@ -61,7 +61,7 @@ void renew_round(State& state) {
     if (queue.empty()) continue;
     const Record& record = book.at(queue.front());
     const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                      !first_closed(state, record, blocks_place);
+                      !any_closed(state, record, blocks_place);
     if (goes) round.jobs.insert(record.job.id);
   }
 }

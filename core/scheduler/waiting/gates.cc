@@ -17,7 +17,8 @@ namespace {
 using Closed = std::optional<FoundWaits>;
 using Edges = std::vector<WaitsForEdge>;
 
-Closed order(JobId first, std::optional<ArmId> arm = {}) {
+Closed order(const Look& look, JobId first, std::optional<ArmId> arm = {}) {
+  if (!look.tells) return FoundWaits();
   return FoundWaits(Wait{.kind = Wait::Kind::predecessor, .job = first, .arm = arm});
 }
 
@@ -43,7 +44,7 @@ bool is_next(const Look& look, const Record& record, ArmId arm) {
 Closed behind(const Look& look, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
     if (is_next(look, record, arm)) continue;
-    return order(look.state.jobs.queues().before(record.job, arm)->job, arm);
+    return order(look, look.state.jobs.queues().before(record.job, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -73,7 +74,7 @@ void add_behind(const State& state, const Record& record, Edges& edges,
 
 Closed open_arm(const Look& look, const Record& record) {
   const auto first = may_go_first(look.state, record);
-  return first ? order(*first) : std::nullopt;
+  return first ? order(look, *first) : std::nullopt;
 }
 
 void add_open_arm(const State& state, const Record& record, Edges& edges) {
@@ -81,9 +82,9 @@ void add_open_arm(const State& state, const Record& record, Edges& edges) {
   if (const auto first = may_go_first(state, record)) edges.push_back({record.job.id, *first});
 }
 
-Closed after(const Look&, const Record& record) {
+Closed after(const Look& look, const Record& record) {
   if (record.job.after.empty()) return std::nullopt;
-  return order(record.job.after.front());
+  return order(look, record.job.after.front());
 }
 
 void add_after(const State& state, const Record& record, Edges& edges) {
@@ -103,7 +104,7 @@ Closed plan(const Look&, const Record& record) {
 
 Closed lets_pass(const Look& look, const Record& record) {
   if (!lets_another_pass(look.state.jobs, record)) return std::nullopt;
-  return order(*record.errand.lets_pass);
+  return order(look, *record.errand.lets_pass);
 }
 
 void add_lets_pass(const State& state, const Record& record, Edges& edges) {
@@ -144,7 +145,7 @@ bool may_go(const State& state, const Record& record) {
     return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::choice;
   };
   if (!stands(state, record)) return true;
-  return record.job.is_waiting() && !first_closed(state, record, stays);
+  return record.job.is_waiting() && !any_closed(state, record, stays);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
@@ -236,11 +237,17 @@ std::optional<ClosedGate> first_closed(const State& state, const Record& record,
   return std::nullopt;
 }
 
+bool any_closed(const State& state, const Record& record, bool (*counts)(const Gate&)) {
+  const Look look{.state = state, .tells = false};
+  return std::ranges::any_of(
+      kGates, [&](const Gate& gate) { return counts(gate) && gate.closed(look, record); });
+}
+
 bool is_at_head(const State& state, const Record& record) {
   const auto by_jobs = [](const Gate& gate) {
     return blocks_start(gate) && !is_ended_by_client(gate);
   };
-  return !first_closed(state, record, by_jobs);
+  return !any_closed(state, record, by_jobs);
 }
 
 bool stands(const State& state, const Record& record) {

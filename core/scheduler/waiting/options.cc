@@ -23,7 +23,7 @@ bool is_loop(const Record& record) {
 bool may_change_places(const State& state, const Record& record) {
   const auto ties = [](const Gate& gate) { return blocks_start(gate) && !gate.of_its_arm; };
   return record.job.terms.reorderable && record.job.in<Queued>() != nullptr &&
-         record.job.alternatives.empty() && is_loop(record) && !first_closed(state, record, ties);
+         record.job.alternatives.empty() && is_loop(record) && !any_closed(state, record, ties);
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {

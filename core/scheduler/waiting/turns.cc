@@ -16,7 +16,7 @@ namespace {
 
 bool is_aged(const State& state, const Record& record) {
   return record.job.in<Queued>() != nullptr && state.has_aged(record) &&
-         !first_closed(state, record, blocks_start);
+         !any_closed(state, record, blocks_start);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
