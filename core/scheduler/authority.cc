@@ -28,13 +28,14 @@ void pause_at_rest(State& state, Step& step) {
 }
 
 void dispatch_if_ready(State& state, Step& step) {
-  const auto closed = first_closed(state, step, blocks_start);
-  if (closed && !is_ended_by_client(closed->gate)) return;
+  if (!is_at_head(state, step)) return;
   if (!step.ages_from) step.ages_from = {state.now, state.clock()};
   if (!step.has_started() && state.arms.start_mismatch(*state.cell, *step.trajectory)) {
     return withdraw(state, step, {});
   }
-  if (closed) return state.jobs.set_waits(step, closed->waits.all());
+  if (const auto closed = first_closed(state, step, blocks_start)) {
+    return state.jobs.set_waits(step, closed->waits.all());
+  }
   if (step.asking.is_in_question) return;
   const Duration limit = state.graph.limit(step.id);
   if (limit <= step.progress && step.progress < step.trajectory->duration()) {

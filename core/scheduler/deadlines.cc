@@ -35,7 +35,7 @@ auto* pause_of(JobType& job) {
 void see_whether_in_vain(const State& state, Step& step) {
   Pause* pause = pause_of(step);
   if (pause == nullptr) return;
-  if (first_closed(state, step, is_ended_by_client)) return pause->in_vain_since.reset();
+  if (any_closed(state, step, is_ended_by_client)) return pause->in_vain_since.reset();
   const bool held = step.in<Held>() != nullptr;
   if (held && !state.is_judged(step)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, step);

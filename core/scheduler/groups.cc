@@ -33,7 +33,7 @@ bool may_follow(const State& state, const Step& step) {
   const auto blocks_group = [](const Gate& gate) {
     return blocks_start(gate) && gate.ended_by != EndedBy::queue;
   };
-  return step.is_waiting() && !step.is_unplanned() && !first_closed(state, step, blocks_group) &&
+  return step.is_waiting() && !step.is_unplanned() && !any_closed(state, step, blocks_group) &&
          state.lanes.follows_on(step.id) && !holds_one_ahead(state, step);
 }
 

@@ -25,7 +25,7 @@ void compare_again(State& state) {
     Step& step = state.jobs.at(id);
     step.asking.is_in_question = true;
     const bool is_kept =
-        step.in<Admitted>() != nullptr && first_closed(state, step, is_ended_by_client);
+        step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
     if (is_kept) withdraw(state, step, {});
   }
   ++state.version;

@@ -14,7 +14,7 @@ bool stands_in_vain(const State& state, const Step& step) {
   const auto ended_by_jobs = [](const Gate& gate) {
     return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::client;
   };
-  return step.is_waiting() ? first_closed(state, step, ended_by_jobs).has_value()
+  return step.is_waiting() ? any_closed(state, step, ended_by_jobs)
                            : held_where_it_stands(state, step).has_value();
 }
 
@@ -61,7 +61,7 @@ void renew_round(State& state) {
     if (queue.empty()) continue;
     const Step& step = book.at(queue.front());
     const bool goes =
-        step.is_waiting() && !step.is_unplanned() && !first_closed(state, step, blocks_place);
+        step.is_waiting() && !step.is_unplanned() && !any_closed(state, step, blocks_place);
     if (goes) round.jobs.insert(step.id.job);
   }
 }

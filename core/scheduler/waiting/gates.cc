@@ -17,7 +17,8 @@ namespace {
 using Closed = std::optional<FoundWaits>;
 using Edges = std::vector<WaitsForEdge>;
 
-Closed order(JobId first, std::optional<ArmId> arm = {}) {
+Closed order(const Look& look, JobId first, std::optional<ArmId> arm = {}) {
+  if (!look.tells) return FoundWaits();
   return FoundWaits(Wait{.kind = Wait::Kind::predecessor, .job = first, .arm = arm});
 }
 
@@ -42,7 +43,7 @@ bool is_next(const Look& look, const Step& step, ArmId arm) {
 Closed behind(const Look& look, const Step& step) {
   for (ArmId arm : step.trajectory->arms()) {
     if (is_next(look, step, arm)) continue;
-    return order(look.state.jobs.queues().before(step, arm)->job, arm);
+    return order(look, look.state.jobs.queues().before(step, arm)->job, arm);
   }
   return std::nullopt;
 }
@@ -72,7 +73,7 @@ void add_behind(const State& state, const Step& step, Edges& edges,
 
 Closed open_arm(const Look& look, const Step& step) {
   const auto first = may_go_first(look.state, step);
-  return first ? order(*first) : std::nullopt;
+  return first ? order(look, *first) : std::nullopt;
 }
 
 void add_open_arm(const State& state, const Step& step, Edges& edges) {
@@ -80,9 +81,9 @@ void add_open_arm(const State& state, const Step& step, Edges& edges) {
   if (const auto first = may_go_first(state, step)) edges.push_back({step.id.job, *first});
 }
 
-Closed after(const Look&, const Step& step) {
+Closed after(const Look& look, const Step& step) {
   if (step.job->after.empty()) return std::nullopt;
-  return order(step.job->after.front());
+  return order(look, step.job->after.front());
 }
 
 void add_after(const State& state, const Step& step, Edges& edges) {
@@ -101,7 +102,7 @@ Closed plan(const Look&, const Step& step) {
 
 Closed lets_pass(const Look& look, const Step& step) {
   if (!lets_another_pass(look.state.jobs, step)) return std::nullopt;
-  return order(*step.job->errand.lets_pass);
+  return order(look, *step.job->errand.lets_pass);
 }
 
 void add_lets_pass(const State& state, const Step& step, Edges& edges) {
@@ -142,7 +143,7 @@ bool may_go(const State& state, const Step& step) {
     return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::choice;
   };
   if (!stands(state, step)) return true;
-  return step.is_waiting() && !first_closed(state, step, stays);
+  return step.is_waiting() && !any_closed(state, step, stays);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest
@@ -233,11 +234,17 @@ std::optional<ClosedGate> first_closed(const State& state, const Step& step,
   return std::nullopt;
 }
 
+bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&)) {
+  const Look look{.state = state, .tells = false};
+  return std::ranges::any_of(
+      kGates, [&](const Gate& gate) { return counts(gate) && gate.closed(look, step); });
+}
+
 bool is_at_head(const State& state, const Step& step) {
   const auto by_jobs = [](const Gate& gate) {
     return blocks_start(gate) && !is_ended_by_client(gate);
   };
-  return !first_closed(state, step, by_jobs);
+  return !any_closed(state, step, by_jobs);
 }
 
 bool stands(const State& state, const Step& step) {

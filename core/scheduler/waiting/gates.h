@@ -30,6 +30,7 @@ class FoundWaits {
 struct Look {
   const State& state;
   const Turns* turns = nullptr;
+  bool tells = true;  // false: the waits may be left out
 };
 // The part of a job's way that a closed condition blocks.
 enum class Blocks {
@@ -70,6 +71,9 @@ struct ClosedGate {
 // Returns the first closed condition of those that `counts` selects, without turns (Look).
 [[nodiscard]] std::optional<ClosedGate> first_closed(const State& state, const Step& step,
                                                      bool (*counts)(const Gate&));
+
+// Returns true if there is one. Faster.
+[[nodiscard]] bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&));
 
 // Returns true if the job waits for no other job before its start.
 [[nodiscard]] bool is_at_head(const State& state, const Step& step);

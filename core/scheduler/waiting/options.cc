@@ -23,7 +23,7 @@ bool is_loop(const Step& step) { return step.leg.arms.size() == 1 && step.leg.fr
 bool may_change_places(const State& state, const Step& step) {
   const auto ties = [](const Gate& gate) { return blocks_start(gate) && !gate.of_its_arm; };
   return step.job->terms.reorderable && step.in<Queued>() != nullptr && step.alternatives.empty() &&
-         is_loop(step) && !first_closed(state, step, ties);
+         is_loop(step) && !any_closed(state, step, ties);
 }
 
 bool is_overtaken_no_more(const State& state, const Step& step) {

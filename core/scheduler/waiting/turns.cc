@@ -16,7 +16,7 @@ namespace {
 
 bool is_aged(const State& state, const Step& step) {
   return step.in<Queued>() != nullptr && state.has_aged(step) &&
-         !first_closed(state, step, blocks_start);
+         !any_closed(state, step, blocks_start);
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
