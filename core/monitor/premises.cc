@@ -239,13 +239,26 @@ void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
   ArmState& state = arms_[arm.index()];
   const ArmObservation& now = seen.arms[arm.index()];
   const bool rests = !now.motion || now.rests;
-  if (!now.braking_since) return judge(arm, false, rests, {Kind::stop_ignored, seen.time}, found);
+  if (!now.braking_since) {
+    state.braking_since.reset();
+    return judge(arm, false, rests, {Kind::stop_ignored, seen.time}, found);
+  }
   bool moves = false;
   Duration told = seen.time - *now.braking_since;
   const Duration limit = stopping_time(arm, !rests);
+  if (state.braking_since != now.braking_since) {
+    state.braking_since = now.braking_since;
+    state.after_brake.begin(*now.braking_since + limit);
+  }
   if (!rests) {
     moves = told > limit && std::max(now.commanded, now.measured) >
                                 std::max(state.last.commanded, state.last.measured);
+    // It may also move beside its path.
+    if (since(state.last.reported, now.reported)) {
+      moves = state.after_brake.observe(seen.measured, state.joints, tracking_error(*cell_, arm),
+                                        seen.time) ||
+              moves;
+    }
   } else if (since(state.last.reported, now.reported)) {
     told = std::min(told, seen.time - state.braked_at);
     moves =

@@ -79,8 +79,10 @@ class PremiseCheck {
     Duration commanded_then{};  // commanded progress then
     // Set while it rests, until it stands still: when it last moved by more than its limit.
     std::optional<TimePoint> moved_at = {};
-    TimePoint braked_at{};  // when the monitor stopped its unplanned motion
-    MovesOn moves_on = {};  // after that brake
+    TimePoint braked_at{};     // when the monitor stopped its unplanned motion
+    MovesOn moves_on = {};     // after that brake
+    MovesOn after_brake = {};  // since it should stand, if it was braked on a motion
+    std::optional<TimePoint> braking_since = {};  // of after_brake
     double deviation = 0.0;
     bool as_certified = true;
     bool keeps_authority = true;

@@ -331,6 +331,24 @@ TEST(Premises, ReportAnArmThatIgnoresItsStop) {
   EXPECT_GT(found[0].limit, 0.4) << "it has time to brake and to settle";
 }
 
+// It stays at its authority, but drifts off its path (found by the fault campaign, seed 9035).
+TEST(Premises, ReportAnArmThatDriftsOffItsPathAfterAStop) {
+  Watched w;
+  w.start();
+  ASSERT_THAT(w.follow(10ms, 200ms), IsEmpty());
+  w.arm().braking_since = w.seen.time;
+  w.arm().authority = 200ms;
+  std::vector<MonitorFinding> ignored;
+  for (int i = 0; i < 400; ++i) {
+    w.seen.measured[1] += 0.0002;
+    for (const MonitorFinding& one : w.look()) {
+      if (one.kind == Kind::stop_ignored) ignored.push_back(one);
+    }
+  }
+  ASSERT_THAT(ignored, SizeIs(1));
+  EXPECT_LT(ignored[0].value, ignored[0].limit + 1.7);
+}
+
 TEST(Premises, ReportAMotionThatFinishedAwayFromItsGoal) {
   Watched w;
   w.start();
