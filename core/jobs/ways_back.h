@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// Where clients left the arms that have retreated since, and the motions back to there. Clients
+// Holds where clients left the arms that have retreated since, and the motions back. Clients
 // need not know about retreats. A copy is independent of the original.
 class WaysBack {
  public:
