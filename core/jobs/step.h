@@ -32,7 +32,7 @@ struct Pause {
   // Since when (motion clock) it waits for an object or an arm that no job moves.
   std::optional<TimePoint> in_vain_since = {};
 };
-// The next step of a job when its braking arms have come to rest.
+// Tells what happens to a step when its braking arms have come to rest.
 struct AfterStop {
   enum class Then { hold, cancel, fail };
   Then then = Then::hold;
@@ -40,7 +40,7 @@ struct AfterStop {
   std::string detail = {};          // fail
 };
 
-// The phases of a job, each with its own data, and their transitions (phases.h):
+// The phases of a step, each with its own data, and their transitions (phases.h):
 //
 //   Queued    -> Admitted   with passing orders
 //   Admitted  -> Moving     dispatched to its arms; or back to Queued, Held: withdrawn

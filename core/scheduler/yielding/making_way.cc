@@ -33,8 +33,8 @@ void send_aside(State& state, const YieldTrial& move) {
   told.returns = returns;
   if (returns) (void)add_own(state, told, {.trajectory = retraced(*move.way)}, move.before, goes);
   if (next == nullptr || !next->goal) return;
-  state.jobs.change(*next).errand.lets_pass =
-      move.blocked_job;  // a goal begins wherever the arm stands by then
+  // A goal begins wherever the arm stands by then.
+  state.jobs.change(*next).errand.lets_pass = move.blocked_job;
   state.lanes.renew_later();
 }
 
