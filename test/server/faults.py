@@ -90,6 +90,7 @@ FAULTS = {'server_store_test': [
     ('only the first joint is compared with the path', DISTANCE, 'if (away > far.distance) far =', 'if (away > far.distance && !(FAULT && row != rows_.front())) far ='),
     ('the search of the path ends at its samples', DISTANCE, 'i < kHalvings &&', 'i < (FAULT ? 0 : kHalvings) &&'),
     ('an arm may be ahead of its commands', PREMISES, 'now.measured), seen.measured, limit);', 'FAULT ? now.motion->duration() : now.measured), seen.measured, limit);'),
+    ('the joints of a braked arm are not watched', PREMISES, '    state.after_brake.begin(', '    if (!FAULT) state.after_brake.begin('),
     ('the limit of the robot is ignored', PREMISES, '  return cell.tracking_error(cell.arm(arm).robot);', '  return FAULT ? cell.checking.tracking_error_rad : cell.tracking_error(cell.arm(arm).robot);'),
     ('joints outside the motion are not checked', PREMISES, 'if (moves(*now.motion, joint)) continue;', 'if (FAULT || moves(*now.motion, joint)) continue;'),
     ('an arm without a motion may move', PREMISES, '  const bool moved = far.distance > limit;', '  const bool moved = !FAULT && far.distance > limit;'),
