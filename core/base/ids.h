@@ -26,6 +26,8 @@ using ArmId = Id<struct ArmTag>;
 using JointId = Id<struct JointTag>;  // a movable joint, not a mimic: one entry of a Configuration
 using LinkId = Id<struct LinkTag>;    // a link of any robot of the cell
 using ObjectId = Id<struct ObjectTag>;  // a collision object of the planning scene
+using IoDeviceId = Id<struct IoDeviceTag>;
+using SignalId = Id<struct SignalTag>;  // an input or output of the cell
 
 // Jobs in the order of their submission: a smaller id is an earlier job. Clients see a string
 // instead (JobView::key).

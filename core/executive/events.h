@@ -182,6 +182,19 @@ struct SceneView {
   [[nodiscard]] const std::vector<CollisionObject>& objects() const { return *shared; }
 };
 
+// An input or output of the cell.
+struct SignalView {
+  std::string name;
+  SignalDirection direction = SignalDirection::input;
+  SignalType type = SignalType::boolean;
+  std::string device = {};                    // empty: simulated
+  std::optional<SignalValue> value = {};      // nullopt: not known
+  std::optional<SignalValue> commanded = {};  // was sent to the device, which has not reported it
+  bool is_connected = false;
+  std::string detail = {};    // why it is not connected
+  TimePoint changed_at = {};  // of the value
+};
+
 struct MonitorEvent {
   MonitorFinding finding;
   std::string text;                  // one sentence
@@ -219,7 +232,8 @@ struct Alert {
 struct Event {
   std::uint64_t seq;
   TimePoint time;
-  std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert> body;
+  std::variant<JobView, ArmView, QueueView, SceneView, SignalView, MonitorEvent, GuardEvent, Alert>
+      body;
 };
 
 struct ArmAuthority {
@@ -244,6 +258,7 @@ struct Snapshot {
   QueueView queue;
   SceneView scene;
   std::vector<ArmView> arms;
+  std::vector<SignalView> signals;
   std::vector<JobView> jobs;  // all not ended, then the latest ended, in order of submission
 };
 

@@ -102,6 +102,7 @@ std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
 }
 LiveScene& Executive::scene() { return impl_->scene_; }
 ArmFaults& Executive::faults() { return impl_->execution_.faults(); }
+Signals& Executive::signals() { return impl_->signals_; }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 std::shared_ptr<const StatusBoard> Executive::board() const { return impl_->publisher_.board(); }
 Snapshot Executive::snapshot(std::size_t ended_max) const {

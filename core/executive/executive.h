@@ -19,6 +19,7 @@
 #include "core/executive/live_scene.h"
 #include "core/executive/plan_ahead.h"
 #include "core/executive/plan_task.h"
+#include "core/executive/signals.h"
 #include "core/jobs/speed_override.h"
 #include "core/model/cell.h"
 
@@ -124,10 +125,11 @@ struct ExecutiveOptions {
   // Largest memory for trajectories of ended jobs. The oldest jobs are forgotten first; the job
   // that ended last is always kept.
   std::size_t ended_bytes_max = std::size_t{32} << 20;
-  JobId first_job{1};          // the first client job of this session
-  StartLog* starts = nullptr;  // outlives the executive; may be null
-  InputLog* inputs = nullptr;  // likewise
-  bool monitored = true;       // for tests: false switches the monitor off
+  JobId first_job{1};                // the first client job of this session
+  Signals::Write write_signal = {};  // sends values to I/O devices; null: all are simulated
+  StartLog* starts = nullptr;        // outlives the executive; may be null
+  InputLog* inputs = nullptr;        // likewise
+  bool monitored = true;             // for tests: false switches the monitor off
   // For tests: from this time on only the controllers run, as if the executive had died.
   std::optional<TimePoint> dies_at = {};
 };
@@ -248,6 +250,8 @@ class Executive {
   [[nodiscard]] LiveScene& scene();
 
   [[nodiscard]] ArmFaults& faults();
+
+  [[nodiscard]] Signals& signals();
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   // Returns the job's motion; null if the job is unknown. If the arm is undecided, returns the

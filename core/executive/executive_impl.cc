@@ -18,6 +18,14 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
               .changed = [this](ClearanceQuery& query) { scene_has_changed(query); }}),
+      signals_(
+          cell_->io, std::move(options.write_signal),
+          {.asked =
+               [this](const ExecutiveInput& input) {
+                 note(input);
+                 return clock_.now;
+               },
+           .changed = [this](SignalId signal) { publisher_.tell_signal(signal, clock_.now); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
@@ -33,7 +41,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       count_(cell_->arms.size()),
       clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
-                  execution_.starts(), scene_},
+                  execution_.starts(), scene_, signals_},
                  observer),
       intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
       watch_(cell_, scene_.scene()),

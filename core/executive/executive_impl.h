@@ -18,6 +18,7 @@
 #include "core/executive/open_questions.h"
 #include "core/executive/publishing.h"
 #include "core/executive/run_count.h"
+#include "core/executive/signals.h"
 #include "core/executive/state_watch.h"
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
@@ -82,6 +83,7 @@ class Executive::Impl {
   Scheduler scheduler_;
   JobRegister jobs_;
   LiveScene scene_;
+  Signals signals_;
   Execution execution_;
   OpenQuestions questions_;
   RunCount count_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/executive/executive.h"
+#include "core/executive/signals.h"
 
 namespace armloom {
 
@@ -119,10 +120,19 @@ struct ExecutiveInput {
     std::string arm;
     ArmConnection connection;
   };
+  struct SignalSet {
+    std::string signal;
+    SignalValue value;
+  };
+  // A device reported its signals.
+  struct IoReported {
+    IoReport report;
+  };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
                ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved,
-               Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected>
+               Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected, SignalSet,
+               IoReported>
       what;
 };
 

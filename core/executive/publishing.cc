@@ -15,6 +15,7 @@ Publisher::Publisher(const Shown& shown, Observer& observer)
       told_arms_(shown.cell.arms.size()),
       told_queue_(queue()) {
   publish_scene();
+  publish_signals();
   look_at_arms();
   publish({});
 }
@@ -37,6 +38,11 @@ void Publisher::tell_scene(TimePoint now) {
   next_scene_ =
       objects < kSmallScene ? now : now + static_cast<Duration::rep>(objects) * kForEachObject;
   tell(scene(), now);
+}
+
+void Publisher::tell_signal(SignalId signal, TimePoint now) {
+  publish_signals();
+  tell(shown_.signals.views()[signal.index()], now);
 }
 
 SceneView Publisher::scene() const {
@@ -194,6 +200,10 @@ void Publisher::publish(TimePoint now) {
                    .arms = arms_},
                   gone_);
   gone_.clear();
+}
+
+void Publisher::publish_signals() {
+  board_->publish_signals(std::make_shared<const std::vector<SignalView>>(shown_.signals.views()));
 }
 
 void Publisher::publish_scene() {

@@ -13,6 +13,7 @@
 #include "core/executive/live_scene.h"
 #include "core/executive/motions.h"
 #include "core/executive/queue_lists.h"
+#include "core/executive/signals.h"
 #include "core/executive/start_gate.h"
 #include "core/executive/status_board.h"
 #include "core/scheduler/scheduler.h"
@@ -32,16 +33,18 @@ class Publisher {
     const JobRegister& jobs;
     const StartGate& starts;
     const LiveScene& scene;
+    const Signals& signals;
   };
   Publisher(const Shown& shown, Observer& observer);
 
-  using Body =
-      std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
+  using Body = std::variant<JobView, ArmView, QueueView, SceneView, SignalView, MonitorEvent,
+                            GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
   // Publish the scene: on the board at once. Events of large scenes are published less often, so
   // that one event may cover several changes.
   void scene_has_changed(TimePoint now);
   void tell_scene(TimePoint now);
+  void tell_signal(SignalId signal, TimePoint now);
   // Publishes the job, and an alert if it failed or expired.
   void tell_job(JobView view, TimePoint now);
   // Publish only what changed since the last publication:
@@ -73,6 +76,7 @@ class Publisher {
   void look_at_arms();
   void publish(TimePoint now);
   void publish_scene();
+  void publish_signals();
   [[nodiscard]] SceneView scene() const;
   [[nodiscard]] const QueueView& queue();
   void tell_stopped(TimePoint now);

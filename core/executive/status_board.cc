@@ -84,7 +84,9 @@ Snapshot snapshot_of(const Status& status, const Cell& cell, std::size_t ended_m
                     .time = status.time,
                     .queue = queue_of(status),
                     .scene = *status.scene,
-                    .arms = arms_of(status, cell)};
+                    .arms = arms_of(status, cell),
+                    .signals = *status.signals,
+                    .jobs = {}};
   for (const auto& job : status.jobs_with_ended(ended_max)) snapshot.jobs.push_back(*job);
   return snapshot;
 }
@@ -135,6 +137,11 @@ void StatusBoard::publish(const Now& now, const std::vector<KeyOfJob>& gone) {
 void StatusBoard::publish_scene(std::shared_ptr<const SceneView> scene) {
   const std::scoped_lock lock(mutex_);
   std::swap(status_.scene, scene);
+}
+
+void StatusBoard::publish_signals(std::shared_ptr<const std::vector<SignalView>> signals) {
+  const std::scoped_lock lock(mutex_);
+  std::swap(status_.signals, signals);
 }
 
 void StatusBoard::add_key(const std::string& key, JobId job) {

@@ -40,8 +40,9 @@ struct Status {
   double speed_override = 1.0;  // of the cell
   JobSheet jobs;                // active and recently ended
   std::shared_ptr<const SceneView> scene;
-  Configuration q;              // measured, all joints of the cell
-  std::vector<ArmStatus> arms;  // by ArmId
+  std::shared_ptr<const std::vector<SignalView>> signals;  // by SignalId
+  Configuration q;                                         // measured, all joints of the cell
+  std::vector<ArmStatus> arms;                             // by ArmId
 
   // Returns the job with its progress at this instant. Copies the job's view only if the progress
   // has changed.
@@ -81,6 +82,7 @@ class StatusBoard {
   using KeyOfJob = std::pair<std::string, JobId>;
   void publish(const Now& now, const std::vector<KeyOfJob>& gone);
   void publish_scene(std::shared_ptr<const SceneView> scene);
+  void publish_signals(std::shared_ptr<const std::vector<SignalView>> signals);
   void add_key(const std::string& key, JobId job);
 
  private:

@@ -162,6 +162,7 @@ struct Cell {
   SchedulingSettings scheduling;
   MonitorSettings monitor;
   ExecutionSettings execution;
+  IoDescription io;
 
   [[nodiscard]] const Arm& arm(ArmId id) const { return arms[id.index()]; }
   [[nodiscard]] const Joint& joint(JointId id) const { return joints[id.index()]; }

@@ -11,6 +11,7 @@
 #include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "core/geometry/shape.h"
+#include "core/model/io_description.h"
 
 namespace armloom {
 
@@ -196,6 +197,7 @@ struct CellDescription {
   SchedulingSettings scheduling;
   MonitorSettings monitor;
   ExecutionSettings execution;
+  IoDescription io;
 };
 
 }  // namespace armloom

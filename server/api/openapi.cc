@@ -83,6 +83,7 @@ Schema tags() {
       {"jobs", "Submit, check, plan and control jobs"},
       {"arms", "Positions of arms; stop, resume and jog"},
       {"scene", "Objects of the planning scene"},
+      {"io", "Inputs and outputs of the cell, such as those of a PLC"},
       {"events", "Live events"},
       {"cell", "The cell, its policy and its meshes"},
       {"recordings", "Recordings of this and earlier sessions"},

@@ -11,9 +11,9 @@ const std::vector<Route>& all_routes() {
     std::vector<Route> all;
     for (const auto& part :
          {submission_routes(), plan_routes(), job_routes(), motion_routes(), arm_routes(),
-          control_routes(), scene_routes(), cell_routes(), comparison_routes(), simulation_routes(),
-          event_routes(), state_routes(), recording_routes(), session_routes(), audit_routes(),
-          alert_routes(), service_routes()}) {
+          control_routes(), scene_routes(), io_routes(), cell_routes(), comparison_routes(),
+          simulation_routes(), event_routes(), state_routes(), recording_routes(), session_routes(),
+          audit_routes(), alert_routes(), service_routes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -85,6 +85,7 @@ struct Route {
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume, /speed
 [[nodiscard]] std::vector<Route> control_routes();     // /control, /arms/{name}/jog
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
+[[nodiscard]] std::vector<Route> io_routes();          // /io
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
 [[nodiscard]] std::vector<Route> comparison_routes();  // /comparison
 [[nodiscard]] std::vector<Route> simulation_routes();  // /sim

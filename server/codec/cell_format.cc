@@ -1,6 +1,7 @@
 #include "server/codec/cell_format.h"
 
 #include "core/executive/known_policies.h"
+#include "server/codec/io_format.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/robot_format.h"
 #include "server/codec/scalar_formats.h"
@@ -159,6 +160,7 @@ const Format<CellDescription>& cell_format() {
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
             "Pairs that may touch: two links, or a link and an object. Link names include the "
             "prefix. Collisions of these pairs are not checked, so the bodies may hit each other."),
+      field("io", &Description::io, io_format(), "Inputs and outputs, such as those of a PLC."),
       settings_part(),
   });
   return *format;

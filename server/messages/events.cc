@@ -12,6 +12,7 @@
 #include "server/messages/arm.h"
 #include "server/messages/job.h"
 #include "server/messages/scene.h"
+#include "server/messages/signal.h"
 
 namespace armloom {
 
@@ -144,6 +145,13 @@ FormatPtr<SnapshotView> snapshot_format() {
           output_only(
               "objects", [](const View& view) { return &view.snapshot->scene.objects(); },
               list(object_format())),
+          output_if(
+              "io",
+              [](const View& view) {
+                const auto& signals = view.snapshot->signals;
+                return signals.empty() ? std::nullopt : std::optional(signals);
+              },
+              list(signal_format()), "Inputs and outputs, if the cell has any"),
           output_if("gap", gap, flag(), "true if events before this snapshot were lost"),
       }));
 }
@@ -216,19 +224,21 @@ struct Kinds {
   EventKind<ArmView> arm = event_kind("arm", "ArmEvent", arm_format());
   EventKind<QueueView> queue = event_kind("queue", "QueueEvent", queue_ids_format());
   EventKind<SceneView> scene = event_kind("scene", "SceneEvent", scene_format());
+  EventKind<SignalView> io = event_kind("io", "IoEvent", signal_format());
   EventKind<MonitorEvent> monitor = event_kind("monitor", "MonitorEvent", monitor_event_format());
   EventKind<GuardEvent> guard = event_kind("guard", "GuardEvent", guard_event_format());
   EventKind<Alert> alert = event_kind("alert", "AlertEvent", alert_format());
 
   template <class Each>
   void each(Each each) const {
-    each(snapshot), each(job), each(arm), each(queue), each(scene), each(monitor), each(guard),
-        each(alert);
+    each(snapshot), each(job), each(arm), each(queue), each(scene), each(io), each(monitor),
+        each(guard), each(alert);
   }
   const auto& of(const JobView&) const { return job; }
   const auto& of(const ArmView&) const { return arm; }
   const auto& of(const QueueView&) const { return queue; }
   const auto& of(const SceneView&) const { return scene; }
+  const auto& of(const SignalView&) const { return io; }
   const auto& of(const MonitorEvent&) const { return monitor; }
   const auto& of(const GuardEvent&) const { return guard; }
   const auto& of(const Alert&) const { return alert; }

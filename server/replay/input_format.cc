@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/codec/io_format.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/output_part.h"
@@ -161,6 +162,15 @@ PartPtr<ArmConnection> connection_part() {
   });
 }
 
+PartPtr<IoReport> io_report_part() {
+  return parts<IoReport>({
+      always("device", &IoReport::device, text()),
+      always("is_up", &IoReport::is_up, flag()),
+      always("detail", &IoReport::detail, text()),
+      always("values", &IoReport::values, dictionary(signal_value_format())),
+  });
+}
+
 // Name and fields of an input.
 template <class Input>
 struct Kind {
@@ -229,6 +239,10 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"connected",
        {always("arm", &In::Connected::arm, text()),
         inlined(&In::Connected::connection, connection_part())}},
+      {"set_signal",
+       {always("signal", &In::SignalSet::signal, text()),
+        always("value", &In::SignalSet::value, signal_value_format())}},
+      {"io_reported", {inlined(&In::IoReported::report, io_report_part())}},
   };
 }
 

@@ -76,6 +76,7 @@ class Replay::Impl final : public InputLog {
     options.first_job = JobId{head.first_job};
     options.inputs = this;
     options.controllers = arms_.controllers();
+    options.write_signal = [](SignalId, const SignalValue&) {};  // devices report as recorded
     options.controllers.merge(simulated_controllers());
     auto made = SteppedLoop::create(cell_, std::move(options), observer);
     if (!made) return std::move(made.error());
@@ -160,6 +161,8 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Certified&) { loop_->answer_certify(); }
   void comes(const In::Planned&) { loop_->answer_plan(); }
   void comes(const In::StartWritten& in) { loop_->write_start(in.step.job); }
+  void comes(const In::SignalSet& in) { (void)executive().signals().set(in.signal, in.value); }
+  void comes(const In::IoReported& in) { executive().signals().report(in.report); }
   void comes(const In::Reported& in) { comes_from_arm(in); }
   void comes(const In::Connected& in) { comes_from_arm(in); }
   template <class Input>

@@ -13,6 +13,7 @@
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
+#include "server/drivers/io_devices.h"
 #include "server/drivers/remote_controller.h"
 #include "server/durable/damage.h"
 #include "server/durable/request_trail.h"
@@ -85,10 +86,19 @@ class Service::Impl {
     if (inputs_) remote = recorded(std::move(remote), *inputs_);
     remote.merge(faults_.watched(simulated_controllers()));
     executive_options.controllers = std::move(remote);
+    io_ = std::make_unique<IoDevices>(cell);
+    executive_options.write_signal = [this](SignalId signal, const SignalValue& value) {
+      io_->write(signal, value);
+    };
     auto loop =
         RealTimeLoop::start(cell, std::move(executive_options), options_.speed, *broadcast_);
     if (!loop) return std::move(loop.error());
     loop_ = std::move(*loop);
+    io_->start([this](IoReport report) {
+      loop_->post_urgent([report = std::move(report)](Executive& executive) {
+        executive.signals().report(report);
+      });
+    });
     if (restart) go_on(std::move(*restart), cell);
     keep_recordings(source.file.parent_path());
     comparison_ = std::make_unique<Comparison>(cell, post);
@@ -158,9 +168,10 @@ class Service::Impl {
 
   ~Impl() { (void)close(); }
 
-  // Closes the store first, because it posts write completions to the loop.
+  // Closes the store first, because it posts write completions to the loop. So do the I/O devices.
   std::optional<std::string> close() {
     const auto fault = keeper_ ? keeper_->store().close() : std::nullopt;
+    if (io_) io_->end();
     loop_.reset();
     if (recording_) recording_->close();
     if (fault) return "jobs cannot be stored: " + fault->text;
@@ -304,6 +315,7 @@ class Service::Impl {
   std::unique_ptr<Broadcast> broadcast_;
   std::unique_ptr<Comparison> comparison_;
   std::unique_ptr<Api> api_;
+  std::unique_ptr<IoDevices> io_;  // the loop writes to it
   std::unique_ptr<RealTimeLoop> loop_;
   std::unique_ptr<Listings> listings_;
   Worker worker_;

@@ -199,6 +199,41 @@ INSTANTIATE_TEST_SUITE_P(
                     MISTAKE(cell.objects[0].shape = Mesh{"missing.stl"}, "/objects/0/mesh",
                             "mesh missing.stl is not a file that exists")));
 
+// Adds a device and an output of it.
+SignalDescription& output(CellDescription& cell) {
+  cell.io.devices = {{.name = "plc", .endpoint = "tcp:plc:502"}};
+  cell.io.signals = {{.name = "valve",
+                      .direction = SignalDirection::output,
+                      .place = SignalDescription::Place{"plc", ModbusTable::coil, 3}}};
+  return cell.io.signals.front();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Io, CellMistake,
+    testing::Values(
+        MISTAKE(output(cell); cell.io.devices[0].endpoint = "unix:/tmp/plc",
+                              "/io/devices/0/endpoint", "must be tcp:HOST:PORT"),
+        MISTAKE(output(cell); cell.io.devices.push_back(cell.io.devices[0]), "/io/devices/1/name",
+                              "the name plc of an I/O device is already taken"),
+        MISTAKE(output(cell).place->device = "plx", "/io/signals/0/modbus/device",
+                "there is no I/O device plx in /io/devices; did you mean plc?"),
+        MISTAKE(output(cell).place->table = ModbusTable::input_register,
+                "/io/signals/0/modbus/table", "no client can write to input_register: use coil"),
+        MISTAKE(output(cell).direction = SignalDirection::input;
+                cell.io.signals[0].fail_state = true, "/io/signals/0/fail_state",
+                "is an input, so it has no fail_state"),
+        MISTAKE(output(cell).fail_state = std::uint16_t{7}, "/io/signals/0/fail_state",
+                "has the type bool, so this must be true or false"),
+        MISTAKE(output(cell).initial = true, "/io/signals/0/initial", "remove initial"),
+        MISTAKE(output(cell).type = SignalType::boolean, "/io/signals/0/type", "remove type"),
+        MISTAKE(output(cell).place.reset(); cell.io.signals[0].fail_state = true,
+                                            "/io/signals/0/fail_state", "set initial instead"),
+        MISTAKE(output(cell); cell.io.signals.push_back(
+                                  {"lamp", SignalDirection::input, {}, cell.io.signals[0].place}),
+                              "/io/signals/1/modbus/address",
+                              "same device, table and address as signal valve"),
+        MISTAKE(output(cell).name = "a/b", "/io/signals/0/name", "used in API paths")));
+
 TEST(CellNames, DuplicatesOfTwoRobotsAreReportedOncePerKind) {
   CellDescription cell = two_pandas_description();
   cell.allowed_collisions.clear();

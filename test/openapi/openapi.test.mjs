@@ -35,6 +35,11 @@ function writeCell() {
   const cell = JSON.parse(text);
   cell.objects.push({name: 'tetrahedron', mesh: 'tetrahedron.obj', xyz: [0, 3, 0]});
   cell.scheduling.on_idle_blocker = 'report';  // waiting jobs must keep waiting
+  // Nothing listens on port 1.
+  cell.io = {devices: [{name: 'plc', endpoint: 'tcp:127.0.0.1:1'}],
+             signals: [{name: 'lane', direction: 'input'}, {name: 'count', direction: 'output', type: 'integer'},
+                       {name: 'door', direction: 'input', modbus: {device: 'plc', table: 'discrete_input', address: 0}},
+                       {name: 'valve', direction: 'output', modbus: {device: 'plc', table: 'coil', address: 0}}]};
   fs.writeFileSync(path.join(folder, 'cell.json'), JSON.stringify(cell));
 }
 
@@ -349,6 +354,20 @@ test('speed override is set for the cell and for an arm', async () => {
   await call(404, 'PUT', `${v1}/arms/{name}/speed`, {args: {name: 'nobody'}, body: {speed_override: 1}});
 });
 
+test('signals are read and set', async () => {
+  const at = `${v1}/io/{name}`;
+  const put = (status, name, value) => call(status, 'PUT', at, {args: {name}, body: {value}});
+  assert.equal((await put(200, 'lane', example(at, 'PUT', 'switch').value)).value, true);
+  assert.equal((await put(200, 'count', example(at, 'PUT', 'register').value)).value, 250);
+  const {signals} = await call(200, 'GET', `${v1}/io`);
+  assert.deepEqual(signals.map(({value}) => value), [true, 250, null, null]);
+  await put(404, 'nothing', true);
+  await put(409, 'door', true);
+  await put(503, 'valve', true);
+  await put(422, 'lane', 1);
+  await put(422, 'count', 70000);
+});
+
 test('objects are added, moved and removed', async () => {
   const rod = example(`${v1}/scene/objects`, 'POST', 'rod');
   await call(201, 'POST', `${v1}/scene/objects`, {body: rod});
@@ -609,5 +628,5 @@ test('every listed status was seen', () => {
   console.log(`${contract.operations().length} operations, ${answers} kinds of answer; messages: ${messages}`);
   assert.deepEqual(lacking, [], 'listed, but never seen');
   assert.ok(contract.seen.get(`POST ${v1}/jobs`).has('503'), 'no 503');
-  for (const type of ['snapshot', 'job', 'arm', 'queue', 'scene', 'state', 'monitor', 'alert']) assert.ok(contract.messages.has(type), `no ${type} message`);
+  for (const type of ['snapshot', 'job', 'arm', 'queue', 'scene', 'io', 'state', 'monitor', 'alert']) assert.ok(contract.messages.has(type), `no ${type} message`);
 });

@@ -21,6 +21,7 @@
 #include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/scene.h"
+#include "server/messages/signal.h"
 #include "server/messages/session.h"
 
 namespace armloom {
@@ -66,6 +67,7 @@ std::vector<Incoming> all_incoming() {
           incoming("NamedObjectRequest", *named_object_request_format()),
           incoming("FaultRequest", *fault_request_format()),
           incoming("SceneRequest", *scene_request_format()),
+          incoming("SignalRequest", *signal_request_format()),
           incoming("Speed", *speed_format()),
           incoming("SpeedOverride", *speed_override_format()),
           incoming("Goal", *plan_goal_format()),

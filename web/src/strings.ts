@@ -87,7 +87,7 @@ export const kText = {
   // Titles of the pages.
   page: {
     cell: 'Cell', new: 'New job', scene: 'Scene', diagram: 'Diagram', history: 'History', recordings: 'Recordings',
-    policies: 'Policies', alerts: 'Alerts', recovery: 'Recovery', settings: 'Settings',
+    policies: 'Policies', io: 'I/O', alerts: 'Alerts', recovery: 'Recovery', settings: 'Settings',
     job: (id: string) => `Job ${id}`,
     arm: (name: string) => `Arm ${name}`,
     object: (name: string) => `Object ${name}`,
@@ -611,6 +611,21 @@ export const kText = {
     ready: 'Ready, at home.',
   },
 
+  io: {
+    none: 'The cell file names no inputs and outputs (its member "io").',
+    hint: 'Inputs and outputs as seen from the server. Signals of a device show what the device reported last.',
+    past: 'Past signals cannot be set.',
+    simulated: (direction: string) => `${direction}, simulated`,
+    of_device: (direction: string, device: string) => `${direction} of ${device}`,
+    not_connected: (detail: string) => `not connected: ${detail}`,
+    read_only: 'The device decides its inputs',
+    unknown: 'unknown',
+    on: 'on',
+    off: 'off',
+    switch_on: 'Switch on',
+    switch_off: 'Switch off',
+    set: 'Set',
+  },
   scene: {
     hint: 'A change takes effect immediately: a motion that the object blocks pauses before it.',
     past: 'The past scene cannot be changed.',
@@ -947,6 +962,7 @@ export const kText = {
     send: (arm: string, state: string) => `Send ${arm} to ${state}`,
     job_name: (arm: string, state: string) => `${arm} to ${state}`,
     move: (object: string) => `Move ${object}`,
+    signal: (name: string) => `Set ${name}`,
     replan: (id: string) => `Replan ${id}`,
     priority: (id: string, priority: number) => `Priority ${priority} of ${id}`,
     cancel: (id: string) => `Cancel ${id}`,

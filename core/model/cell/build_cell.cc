@@ -230,6 +230,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   cell.scheduling = description.scheduling;
   cell.monitor = description.monitor;
   cell.execution = description.execution;
+  cell.io = description.io;
   for (const auto& object : description.objects)
     cell.objects.push_back({object.name, object.shape, object.X_WO});
   for (const auto& robot : description.robots) {
@@ -267,6 +268,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
   check_names(description, diagnostics);
   check_objects(description, diagnostics);
   check_settings(description, diagnostics);
+  check_io(description.io, diagnostics);
 
   auto cell = std::make_shared<Cell>();
   copy_settings(description, *cell);

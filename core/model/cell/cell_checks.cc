@@ -13,19 +13,6 @@
 namespace armloom {
 namespace {
 
-void check_name(const std::string& name, const std::string& kind, const std::string& pointer,
-                std::set<std::string>& known, Diagnostics& diagnostics) {
-  if (name.empty()) {
-    diagnostics.in_cell("missing", pointer, "the name of " + kind + " is empty", name);
-  } else if (!known.insert(name).second) {
-    diagnostics.in_cell("duplicate-name", pointer,
-                        "the name " + name + " of " + kind + " is already taken", name);
-  } else if (!is_plain_name(name)) {
-    diagnostics.in_cell("bad-name", pointer,
-                        "the name of " + kind + " is used in API paths: " + kPlainNameRule, name);
-  }
-}
-
 // Reports a setting that is not finite or for which `holds` is false; `rule` completes the message.
 // The conditions below are false for NaN.
 void require(bool holds, double value, const std::string& pointer, const std::string& rule,
@@ -123,6 +110,19 @@ class ShapeCheck {
 };
 
 }  // namespace
+
+void check_name(const std::string& name, const std::string& kind, const std::string& pointer,
+                std::set<std::string>& known, Diagnostics& diagnostics) {
+  if (name.empty()) {
+    diagnostics.in_cell("missing", pointer, "the name of " + kind + " is empty", name);
+  } else if (!known.insert(name).second) {
+    diagnostics.in_cell("duplicate-name", pointer,
+                        "the name " + name + " of " + kind + " is already taken", name);
+  } else if (!is_plain_name(name)) {
+    diagnostics.in_cell("bad-name", pointer,
+                        "the name of " + kind + " is used in API paths: " + kPlainNameRule, name);
+  }
+}
 
 void check_names(const CellDescription& description, Diagnostics& diagnostics) {
   std::set<std::string> robots;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "core/base/diagnostics.h"
 #include "core/model/cell.h"
 #include "core/model/cell_description.h"
@@ -11,6 +14,11 @@ namespace armloom {
 void check_names(const CellDescription& description, Diagnostics& diagnostics);
 void check_objects(const CellDescription& description, Diagnostics& diagnostics);
 void check_settings(const CellDescription& description, Diagnostics& diagnostics);
+void check_io(const IoDescription& io, Diagnostics& diagnostics);
+
+// Checks a name that is used in API paths, and adds it to `known`. `kind`: "a robot".
+void check_name(const std::string& name, const std::string& kind, const std::string& pointer,
+                std::set<std::string>& known, Diagnostics& diagnostics);
 
 // Checks that X is finite and rigid up to rounding. `whose` begins the message ("robot left:
 // base").

@@ -4,7 +4,7 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /** @description A message on WebSocket or SSE. */
-        Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["GuardEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
+        Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["IoEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["GuardEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
         Cell: {
             name: string;
             /** @description Present policy */
@@ -535,6 +535,28 @@ export interface components {
             at: string;
             data: components["schemas"]["Scene"];
         };
+        IoEvent: {
+            /**
+             * Format: uuid
+             * @description UUID of this server session
+             */
+            stream: string;
+            /** @description Number of the event; consecutive within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "io";
+            /** @description Cell time of the event */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time of the event
+             */
+            at: string;
+            data: components["schemas"]["Signal"];
+        };
         MonitorEvent: {
             /**
              * Format: uuid
@@ -884,6 +906,8 @@ export interface components {
             jobs: components["schemas"]["Job"][];
             queue: components["schemas"]["QueueIds"];
             objects: components["schemas"]["Object"][];
+            /** @description Inputs and outputs, if the cell has any */
+            io?: components["schemas"]["Signal"][];
             /** @description true if events before this snapshot were lost */
             gap?: boolean;
         };
@@ -934,6 +958,32 @@ export interface components {
             /** @description Version of the scene; grows with every change */
             version: number;
             objects: components["schemas"]["Object"][];
+        };
+        /** @description An input or output of the cell. */
+        Signal: {
+            name: string;
+            /**
+             * @description As seen from the server
+             * @enum {string}
+             */
+            direction: "input" | "output";
+            /**
+             * @description bool, or integer: 0 to 65535
+             * @enum {string}
+             */
+            type: "bool" | "integer";
+            /** @description Device of the signal; null: the signal is simulated */
+            device: string | null;
+            /** @description Present value; null: not known */
+            value: (boolean | number) | null;
+            /** @description Value that was sent to the device, until the device reports it */
+            commanded?: boolean | number;
+            /** @description false while the server has no connection to the device */
+            is_connected: boolean;
+            /** @description Why it is not connected */
+            detail: string | null;
+            /** @description Cell time of the last change of the value */
+            changed_s: number;
         };
         /** @description `contact`, `clearance`: two bodies are too close. `approach`: two bodies will be too close unless an arm stops now. The other kinds report a violated premise of the certificates: an arm that is not where it should be, or feedback that is late, frozen or implausible. */
         MonitorFinding: {

@@ -6,7 +6,7 @@ import { kText } from '../strings';
 
 export interface Page { place(app: App): Place; title: string; key: string; test: string; more: boolean }
 
-const plain = (page: 'cell' | 'new' | 'history' | 'recordings' | 'policies' | 'alerts' | 'recovery' | 'settings') => (): Place => ({ page });
+const plain = (page: 'cell' | 'new' | 'history' | 'recordings' | 'policies' | 'alerts' | 'recovery' | 'settings' | 'io') => (): Place => ({ page });
 
 /** Returns the place of the open diagram, else of the diagram of the first two arms. */
 function diagram({ router, store }: App): Place {
@@ -23,6 +23,7 @@ export const kPages: readonly Page[] = [
   { place: diagram, title: kText.page.diagram, key: 'd', test: 'go-diagram', more: false },
   { place: plain('history'), title: kText.page.history, key: 'h', test: 'go-history', more: false },
   { place: plain('recordings'), title: kText.page.recordings, key: 'r', test: 'go-recordings', more: true },
+  { place: plain('io'), title: kText.page.io, key: 'i', test: 'go-io', more: true },
   { place: plain('policies'), title: kText.page.policies, key: 'p', test: 'go-compare', more: true },
   { place: plain('alerts'), title: kText.page.alerts, key: 'a', test: 'go-alerts', more: true },
   { place: plain('recovery'), title: kText.page.recovery, key: 'v', test: 'go-recovery', more: true },

@@ -6,6 +6,7 @@ import { ArmPage } from '../arms/arm_page';
 import { AlertsPage } from '../alerts/alerts_page';
 import { NewJob } from '../compose/new_job';
 import { DiagramPanel } from '../diagram/diagram';
+import { IoPage } from '../io/io_page';
 import { HistoryPage } from '../history/history_page';
 import { place_in_words, type Place } from '../route/address';
 import { Link } from '../route/link';
@@ -66,6 +67,7 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'arm': return <ArmPage name={place.name} app={app} />;
     case 'pair': return <DiagramPanel a={place.a} b={place.b} app={app} />;
     case 'scene': return <ScenePage name={place.name} app={seen_app(app)} />;
+    case 'io': return <IoPage app={seen_app(app)} />;
     case 'history': return <HistoryPage app={seen_app(app)} />;
     case 'alerts': return <AlertsPage app={app} />;
     case 'recovery': return <RecoveryPage app={seen_app(app)} />;

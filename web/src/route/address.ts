@@ -6,6 +6,7 @@
 //   #/pair/A/B              the diagram of two jobs or arms, A across and B up
 //   #/scene  #/scene/NAME   the objects, one of them selected
 //   #/new                   the New job page
+//   #/io                    the inputs and outputs
 //   #/history  #/settings  #/alerts  #/recovery  #/recordings  #/policies
 //   ?t=12.5                 the cell time that all views show, in seconds
 //   &run=7997886f           the server session of this time, by the beginning of its stream id
@@ -18,13 +19,13 @@ const kTitles = kText.page;
 
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
-  | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' } | { page: 'policies' }
+  | { page: 'alerts' } | { page: 'recovery' } | { page: 'recordings' } | { page: 'policies' } | { page: 'io' }
   | { page: 'job'; id: string } | { page: 'arm'; name: string }
   | { page: 'pair'; a: string; b: string }
   | { page: 'scene'; name: string | null }
   | { page: 'unknown'; path: string };
 
-const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings', 'policies'] as const;
+const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings', 'policies', 'io'] as const;
 
 /** x, y, z of the camera's position, then of its target, in meters in the world frame. */
 export type Camera = readonly [number, number, number, number, number, number];
@@ -121,6 +122,7 @@ export function place_in_words(place: Place): string {
     case 'recovery': return kTitles.recovery;
     case 'recordings': return kTitles.recordings;
     case 'policies': return kTitles.policies;
+    case 'io': return kTitles.io;
     case 'unknown': return kText.frame.no_page;
   }
 }

@@ -4,7 +4,7 @@ import { cut_text } from '../names';
 import { kText } from '../strings';
 import {
   parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_faults, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type SignalValue, type Verdict,
 } from './messages';
 
 const kAnswers = kText.server.answers;
@@ -101,6 +101,11 @@ export class Api {
   /** Plans a new path to the job's goal. */
   replan_job(id: string): Promise<Answer<unknown>> {
     return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
+  }
+
+  /** Sets an output, or a simulated input. */
+  set_signal(name: string, value: SignalValue): Promise<Answer<unknown>> {
+    return this.ask('PUT', `/io/${encodeURIComponent(name)}`, JSON.stringify({ value }));
   }
 
   /** Changes the scheduling policy. The server refuses this while a job is admitted. */

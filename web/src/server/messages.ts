@@ -16,6 +16,9 @@ export type Arm = Schemas['Arm'];
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];
 export type SceneObject = Schemas['Object'];
+/** An input or output of the cell. */
+export type Signal = Schemas['Signal'];
+export type SignalValue = NonNullable<Signal['value']>;
 export type Cell = Schemas['Cell'];
 export type CellArm = Schemas['CellArm'];
 export type CellRobot = Schemas['CellRobot'];

@@ -5,7 +5,7 @@ import { short_wall_time } from '../wall_time';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import { follow_job } from '../server/follow_job';
-import type { Problem, SceneObject } from '../server/messages';
+import type { Problem, SceneObject, SignalValue } from '../server/messages';
 import { kText } from '../strings';
 import { SpeedOverride } from './speed_override';
 import type { Store } from './store';
@@ -69,6 +69,10 @@ export class Actions {
 
   async move_object(object: SceneObject, xyz: [number, number, number]): Promise<boolean> {
     return this.ask(kWords.move(object.name), this.api_.put_object({ ...object, xyz }));
+  }
+
+  async set_signal(name: string, value: SignalValue): Promise<void> {
+    await this.ask(kWords.signal(name), this.api_.set_signal(name, value));
   }
 
   async replan(id: string): Promise<void> {

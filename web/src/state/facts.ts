@@ -1,7 +1,7 @@
 // The state that follows from the server's events, which are live or replayed: arms, jobs, objects,
 // reports. Of the poses it has only those in snapshots.
 
-import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages';
+import type { Arm, Job, SceneObject, SequencedMessage, Signal } from '../server/messages';
 import { kText } from '../strings';
 import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
@@ -31,6 +31,8 @@ export class Facts {
    * draw them again.
    */
   objects: SceneObject[] = [];
+  /** The inputs and outputs, in the order of the cell file. */
+  signals: Signal[] = [];
   arms = new Map<string, Arm>();
   q: Record<string, number> = {};
   /** The last restart of the server since the page was opened, until the user dismisses it. */
@@ -76,6 +78,9 @@ export class Facts {
         break;
       case 'scene':
         this.objects = message.data.objects;
+        break;
+      case 'io':
+        this.signals = this.signals.map((known) => (known.name === message.data.name ? message.data : known));
         break;
     }
   }
@@ -180,6 +185,7 @@ export class Facts {
     this.stopped = data.stopped;
     this.speed_override = data.speed_override ?? 1;
     this.objects = data.objects;
+    this.signals = data.io ?? [];
     // In a past state, arms that the snapshot does not contain stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
     for (const arm of data.arms) {

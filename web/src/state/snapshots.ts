@@ -21,7 +21,7 @@ export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
     stream: last.stream, seq: last.seq, type: 'snapshot', t_s: last.t_s, at: last.at,
     data: {
       cell: first.data.cell, policy: facts.policy, speed: facts.speed, stopped: facts.stopped, speed_override: facts.speed_override, arms: [...facts.arms.values()],
-      jobs: facts.all_jobs(), queue: facts.book.order, objects: facts.objects,
+      jobs: facts.all_jobs(), queue: facts.book.order, objects: facts.objects, io: facts.signals,
       ended_from_s: facts.book.ended_from_s,
     },
   };

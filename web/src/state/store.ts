@@ -212,6 +212,7 @@ export class Store extends Facts {
     this.policy = now.policy;
     this.speed = now.speed;
     this.objects = now.objects;
+    this.signals = now.signals;
     this.arms = new Map([...now.arms].map(([name, arm]) => [name, at_rest(arm)]));
     for (const name of this.arms.keys()) this.unknown_arms_.add(name);
   }

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/executive/events.h"
+#include "core/model/io_description.h"
+
+namespace armloom {
+
+struct ExecutiveInput;
+
+// The report of an I/O device: its connection, and all values that it read.
+struct IoReport {
+  std::string device;
+  bool is_up = false;
+  std::string detail = {};                         // why it is not up
+  std::map<std::string, SignalValue> values = {};  // by signal; of the signals of the device
+};
+
+// The inputs and outputs of the cell. Used on the strand.
+//
+// A simulated signal takes a value at once. A signal of a device has the value that the device
+// reported last: an output takes a new value when the device reports it. While there is no
+// connection, an input has no value, and an output has its fail_state (SignalDescription). After a
+// connection was lost, no value from before it is written again.
+class Signals {
+ public:
+  // Sends a value to a device. Null: all signals are simulated.
+  using Write = std::function<void(SignalId signal, const SignalValue& value)>;
+  struct Told {
+    // Called with each request, also an invalid one. Returns the present time.
+    std::function<TimePoint(const ExecutiveInput&)> asked;
+    std::function<void(SignalId)> changed;  // called after a change of the signal's view
+  };
+  Signals(const IoDescription& io, Write write, Told told);
+
+  [[nodiscard]] const std::vector<SignalView>& views() const { return views_; }  // by SignalId
+
+  // Sets an output, or a simulated input. Problems: an unknown signal; a value of another type; an
+  // input of a device (conflict); an output of a device that is not connected (unavailable).
+  [[nodiscard]] Result<SignalView> set(const std::string& name, const SignalValue& value);
+  // Takes the report of a device. Ignores reports of unknown devices.
+  void report(const IoReport& report);
+
+ private:
+  void see(SignalId signal, std::optional<SignalValue> value, const IoReport& report,
+           TimePoint now);
+
+  const IoDescription& io_;
+  Write write_;
+  Told told_;
+  std::vector<SignalView> views_;
+};
+
+}  // namespace armloom
