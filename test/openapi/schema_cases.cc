@@ -21,8 +21,8 @@
 #include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/scene.h"
-#include "server/messages/signal.h"
 #include "server/messages/session.h"
+#include "server/messages/signal.h"
 
 namespace armloom {
 namespace {
