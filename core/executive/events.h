@@ -187,7 +187,7 @@ struct SignalView {
   std::string name;
   SignalDirection direction = SignalDirection::input;
   SignalType type = SignalType::boolean;
-  std::string device = {};                    // empty: simulated
+  std::string device = {};                    // empty if the signal is simulated
   std::optional<SignalValue> value = {};      // nullopt: not known
   std::optional<SignalValue> commanded = {};  // was sent to the device, which has not reported it
   bool is_connected = false;
