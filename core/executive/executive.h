@@ -125,12 +125,11 @@ struct ExecutiveOptions {
   // Largest memory for trajectories of ended jobs. The oldest jobs are forgotten first; the job
   // that ended last is always kept.
   std::size_t ended_bytes_max = std::size_t{32} << 20;
-  JobId first_job{1};  // the first client job of this session
-  Signals::Write write_signal =
-      {};                      // sends values to I/O devices; without it, all signals are simulated
-  StartLog* starts = nullptr;  // outlives the executive; may be null
-  InputLog* inputs = nullptr;  // likewise
-  bool monitored = true;       // for tests: false switches the monitor off
+  JobId first_job{1};                // the first client job of this session
+  Signals::Write write_signal = {};  // to I/O devices; without it, signals are simulated
+  StartLog* starts = nullptr;        // outlives the executive; may be null
+  InputLog* inputs = nullptr;        // likewise
+  bool monitored = true;             // for tests: false switches the monitor off
   // For tests: from this time on only the controllers run, as if the executive had died.
   std::optional<TimePoint> dies_at = {};
 };
