@@ -106,7 +106,10 @@ Signals& Executive::signals() { return impl_->signals_; }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
 std::shared_ptr<const StatusBoard> Executive::board() const { return impl_->publisher_.board(); }
 Snapshot Executive::snapshot(std::size_t ended_max) const {
-  return snapshot_of(impl_->publisher_.board()->read(), *impl_->cell_, ended_max);
+  const Status status = impl_->publisher_.board()->read();
+  Snapshot snapshot = snapshot_of(status, *impl_->cell_);
+  for (const auto& job : status.jobs_with_ended(ended_max)) snapshot.jobs.push_back(*job);
+  return snapshot;
 }
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
   const auto id = impl_->jobs_.find(key);

@@ -79,16 +79,14 @@ QueueView queue_of(const Status& status) {
   return view;
 }
 
-Snapshot snapshot_of(const Status& status, const Cell& cell, std::size_t ended_max) {
-  Snapshot snapshot{.seq = status.seq,
-                    .time = status.time,
-                    .queue = queue_of(status),
-                    .scene = *status.scene,
-                    .arms = arms_of(status, cell),
-                    .signals = *status.signals,
-                    .jobs = {}};
-  for (const auto& job : status.jobs_with_ended(ended_max)) snapshot.jobs.push_back(*job);
-  return snapshot;
+Snapshot snapshot_of(const Status& status, const Cell& cell) {
+  return {.seq = status.seq,
+          .time = status.time,
+          .queue = queue_of(status),
+          .scene = *status.scene,
+          .arms = arms_of(status, cell),
+          .signals = *status.signals,
+          .jobs = {}};
 }
 
 Status StatusBoard::read() const {

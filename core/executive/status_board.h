@@ -54,7 +54,8 @@ struct Status {
                               const Configuration& q, std::string job_key);
 [[nodiscard]] std::vector<ArmView> arms_of(const Status& status, const Cell& cell);
 [[nodiscard]] QueueView queue_of(const Status& status);
-[[nodiscard]] Snapshot snapshot_of(const Status& status, const Cell& cell, std::size_t ended_max);
+// Returns the snapshot without its jobs.
+[[nodiscard]] Snapshot snapshot_of(const Status& status, const Cell& cell);
 
 // Publishes the status from the strand to any thread. A reader copies the status under a short lock
 // and works on the copy, so reader and strand hardly wait for each other. The status is updated

@@ -61,11 +61,7 @@ StreamQuery place_of(const Request& request, StreamQuery asked) {
 std::string snapshot_text(const ApiParts& parts, const Status& status, const WallClock& clock,
                           bool gap, JobTexts& texts) {
   const std::vector<ListedJob> jobs = texts.of(status.jobs_with_ended(kSnapshotEnded), clock);
-  const Snapshot snapshot{.seq = status.seq,
-                          .time = status.time,
-                          .queue = queue_of(status),
-                          .scene = *status.scene,
-                          .arms = arms_of(status, *parts.cell)};
+  const Snapshot snapshot = snapshot_of(status, *parts.cell);
   return snapshot_json({&snapshot, &jobs, parts.cell.get(), parts.loop.speed(), gap}, parts.stream,
                        clock);
 }

@@ -130,6 +130,7 @@ test('subscribers get a snapshot and all events after it', async () => {
   contract.answer(`${v1}/events`, 'GET', {...events, text: ''});
   await until('the snapshot', () => snapshot);
   assert.equal(snapshot.type, 'snapshot');
+  assert.equal(snapshot.data.io.length, 4);
 
   let again;
   streams.push(await openEvents(server.port, `${v1}/events?poses=1`, {'Last-Event-ID': `${snapshot.stream}:999999`},

@@ -37,13 +37,13 @@ function Row({ signal, app }: { signal: Signal; app: App }) {
       <td class="mono" data-test="signal-value">{value_in_words(signal.value)}{signal.commanded !== undefined && <span class="dim"> → {value_in_words(signal.commanded)}</span>}</td>
       <td>{signal.type === 'bool'
         ? <button class="small" role="switch" aria-checked={value === true} aria-label={shown_name(signal.name)} disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => set(value !== true)}>{value === true ? kWords.switch_off : kWords.switch_on}</button>
-        : <Register why_disabled={why_disabled} set={set} />}</td>
+        : <Register value={value} why_disabled={why_disabled} set={set} />}</td>
     </tr>
   );
 }
 
-function Register({ why_disabled, set }: { why_disabled: string | null; set(value: number): void }) {
-  const [text, set_text] = useState('');
+function Register({ value, why_disabled, set }: { value: SignalValue | null; why_disabled: string | null; set(value: number): void }) {
+  const [text, set_text] = useState(String(value ?? 0));
   return (
     <form class="line" onSubmit={(event) => { event.preventDefault(); set(Number(text)); }}>
       <NumberField value={text} step={1} test="register" change={set_text} />
@@ -52,8 +52,9 @@ function Register({ why_disabled, set }: { why_disabled: string | null; set(valu
   );
 }
 
-function why_not_set({ device, direction }: Signal): string | null {
-  return device !== null && direction === 'input' ? kWords.read_only : null;
+function why_not_set({ device, direction, is_connected, detail }: Signal): string | null {
+  if (device !== null && direction === 'input') return kWords.read_only;
+  return is_connected ? null : kWords.not_connected(shown_text(detail ?? ''));
 }
 
 function value_in_words(value: SignalValue | null | undefined): string {
