@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a server with a Modbus TCP device (modbus_plc.py), and breaks the device and its connection.
+"""Runs a server with a Modbus TCP device by pymodbus or jsmodbus (modbus_plc.*), and breaks the device and its connection.
 
     test/server/modbus_io.py ARMLOOM [--only CASE ...]
 """
@@ -18,7 +18,8 @@ import urllib.request
 from killed_server import API, ROOT
 from remote_cell import wait_for
 
-PLC = pathlib.Path(__file__).with_name("modbus_plc.py")
+PYMODBUS = ["/usr/bin/python3", pathlib.Path(__file__).with_name("modbus_plc.py")]
+JSMODBUS = ["node", pathlib.Path(__file__).with_name("modbus_plc.mjs")]
 SIGNALS = [
     ("part_ready", "input", "discrete_input", 3, None), ("door_closed", "input", "discrete_input", 4, None),
     ("level", "input", "input_register", 10, None), ("valve", "output", "coil", 0, False),
@@ -50,9 +51,9 @@ class Plant:
                                         str(folder / "data")], stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.port = int(self.server.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
 
-    def start_device(self, unit=1):
-        self.device = subprocess.Popen(["/usr/bin/python3", PLC, str(self.device_port), "--unit", str(unit)],
-                                       stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True)
+    def start_device(self, *options, by=PYMODBUS):
+        self.device = subprocess.Popen([*by, str(self.device_port), *options], stdin=subprocess.PIPE,
+                                       stdout=subprocess.PIPE, stderr=self.log, text=True)
         assert self.device.stdout.readline() == "listens\n"
 
     def tell(self, command):
@@ -97,8 +98,8 @@ class Plant:
 
 # ---- Cases ----
 
-def case_reads_and_writes(plant):
-    plant.start_device()
+def case_reads_and_writes(plant, by=PYMODBUS):
+    plant.start_device(by=by)
     plant.tell("set coil 7 1")  # an output without fail_state keeps what the device has
     plant.await_up()
     assert plant.io("lamp")["value"] is True, plant.io("lamp")
@@ -115,6 +116,10 @@ def case_reads_and_writes(plant):
     plant.end_server()
     assert plant.tell("get coil 0") == "0" and plant.tell("get holding_register 2") == "100", "no fail state at the end"
     assert plant.tell("get coil 7") == "1", "an output without a fail state was written"
+
+
+def case_reads_and_writes_by_jsmodbus(plant):
+    case_reads_and_writes(plant, JSMODBUS)
 
 
 def case_refuses_what_is_wrong(plant):
@@ -157,7 +162,7 @@ def case_says_that_a_slow_device_is_lost(plant):
 
 
 def case_says_that_the_unit_is_wrong(plant):
-    plant.start_device(unit=9)
+    plant.start_device("--unit", "9")
     detail = wait_for(lambda: (d := plant.io("valve")["detail"]) and "refused" not in d and "yet" not in d and d, "a reason")
     assert "unit 1" in detail, detail
 
