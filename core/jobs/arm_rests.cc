@@ -34,12 +34,19 @@ void ArmRests::come_to_rest(const Cell& cell, const TrajectoryPtr& motion,
     places_at_[arm.index()] = places_.of(arm, joints_of(rest_, cell.arm(arm).joints));
     came_by_[arm.index()] = alone ? motion : nullptr;
   }
+  ++changes_;
 }
 
 void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position) {
   set_joints(rest_, joints_and_gripper(cell.arm(arm)), position);
   places_at_[arm.index()] = places_.of(arm, joints_of(rest_, cell.arm(arm).joints));
   came_by_[arm.index()] = nullptr;
+  ++changes_;
+}
+
+std::vector<ArmId> ArmRests::set_located(ArmId arm) {
+  if (is_unlocated(arm)) ++changes_;
+  return std::exchange(may_meet_[arm.index()], {});
 }
 
 std::optional<ArmId> ArmRests::unlocated_beside(ArmId arm) const {
@@ -56,6 +63,12 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
 void ArmRests::stop(ArmId arm, std::string cause, bool until_connected) {
   std::optional<StopOfArm>& stop = stopped_[arm.index()];
   if (!stop || stop->until_connected) stop = {std::move(cause), until_connected};
+  ++changes_;
+}
+
+void ArmRests::resume(ArmId arm) {
+  stopped_[arm.index()].reset();
+  ++changes_;
 }
 
 std::optional<Wait> ArmRests::stop_of(const Step& step) const {

@@ -100,6 +100,7 @@ void JobBook::set_motion(Step& step, TrajectoryPtr trajectory, WaitingLeg leg) {
   step.trajectory = std::move(trajectory);
   leg.motion = step.leg.motion + 1;
   step.leg = std::move(leg);
+  if (!step.is_unplanned()) ++changes_;
   step.asking.effort = 1;
   step.asking.raised = 0;
   if (auto* queued = std::get_if<Queued>(&step.phase)) queued->judgement = {};
@@ -113,6 +114,7 @@ void JobBook::set_priority(Step& step, int priority) {
   if (--priorities_.at(now) == 0) priorities_.erase(now);
   change(step).terms.priority = priority;
   ++priorities_[priority];
+  ++changes_;
   changed(step);
 }
 
@@ -130,7 +132,19 @@ void JobBook::decide_arm(Step& step) {
   step.alternatives.clear();
   queues_.add_work(step);
   undecided_.erase(step.id.job);
+  ++changes_;
   changed(step);
+}
+
+bool JobBook::set_planned(Step& step, bool is_planned) {
+  const bool is_news = std::exchange(step.goal->is_planned, is_planned) != is_planned;
+  if (is_news) ++changes_;
+  return is_news;
+}
+
+void JobBook::put_in_question(Step& step) {
+  step.asking.is_in_question = true;
+  ++changes_;
 }
 
 // What comes next on its arms may have waited for it, or does now.
@@ -148,6 +162,8 @@ void JobBook::enter(Step& step, StepPhase phase) {
                            std::to_string(step.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }
+  const bool is_dispatch = step.in<Admitted>() != nullptr && std::holds_alternative<Moving>(phase);
+  if (step.phase.index() != phase.index() && !is_dispatch) ++changes_;
   if (!step.alternatives.empty()) queues_.remove_work(step);
   step.phase = std::move(phase);
   if (!step.alternatives.empty()) queues_.add_work(step);

@@ -68,6 +68,10 @@ class JobBook {
   void set_alternative(Step& step, std::size_t which, TrajectoryPtr trajectory, WaitingLeg leg);
   // Assigns the job to its present arm for good. Precondition: the job is waiting.
   void decide_arm(Step& step);
+  // Sets JobGoal::is_planned. Returns true if it was different.
+  bool set_planned(Step& step, bool is_planned);
+  // The admitted motion must be checked again.
+  void put_in_question(Step& step);
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // Returns the queued jobs that could still run on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
@@ -83,6 +87,11 @@ class JobBook {
   void set_waits(Step& step, std::span<const Wait> waits);
   void set_wait(Step& step, const Wait& only) { set_waits(step, {&only, 1}); }
 
+  // Grows with every change that makes an open answer stale: of a phase (not when a motion is
+  // dispatched), of a path that can be checked, of the candidate arms, of a priority, and when
+  // a motion must be checked again.
+  [[nodiscard]] Version changes() const { return changes_; }
+
   // Mark a job whose published view or wait explanation is out of date.
   void changed(const Step& step) { news_.changed.insert(step.id.job); }
   void explain(const Step& step) { news_.unexplained.insert(step.id.job); }
@@ -96,6 +105,7 @@ class JobBook {
  private:
   void explain_with_next(const Step& step);
 
+  Version changes_ = 0;
   std::unordered_map<StepId, Step> steps_;
   JobIds ids_;
   std::set<JobId> active_;

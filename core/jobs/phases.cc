@@ -130,7 +130,6 @@ void end(State& state, Step& step, JobState how, Reason reason, std::string deta
   const StepPhase before = step.phase;
   const auto followers = state.jobs.end(step, {how, reason, std::move(detail), state.now});
   state.lanes.follow(step, before);
-  ++state.version;
   for (JobId id : followers) {
     if (!state.jobs.is_active(id)) continue;  // failed meanwhile, with another of its own
     Step& follower = state.jobs.at(id);
@@ -166,17 +165,13 @@ void brake(State& state, Step& step, AfterStop after) {
                .state = braking != nullptr ? braking->state : step.state(),
                .paused = step.pausing()};
   if (braking != nullptr && braking->after.then != Then::hold) next.after = braking->after;
-  if (braking == nullptr) {
-    ++state.version;
-    state.decided.effects.push_back(Brake{step.id});
-  }
+  if (braking == nullptr) state.decided.effects.push_back(Brake{step.id});
   if (next.after.then == Then::hold && step.has_started()) next.state = JobState::paused;
   enter(state, step, std::move(next));
   state.jobs.changed(step);
 }
 
 void withdraw(State& state, Step& step, const AfterStop& after) {
-  ++state.version;  // others may have counted on its departure
   if (after.then != Then::hold) return end_at_rest(state, step, after);
   leave_graph(state, step);
   if (step.has_started()) {
@@ -190,7 +185,6 @@ void withdraw(State& state, Step& step, const AfterStop& after) {
 
 void come_to_rest(State& state, Step& step, const MotionReport& report) {
   state.arms.come_to_rest(*state.cell, step.trajectory, report.rest_position);
-  ++state.version;
   const bool moved = std::max(step.progress, report.farthest) > Duration{};
   if (moved) step.note_start(state.now);  // unseen
   step.farthest = report.farthest;
@@ -231,7 +225,6 @@ void go_by(State& state, Step& step, TrajectoryPtr way) {
   WaitingLeg leg = state.arms.leg_of(*state.cell, step.id, *way);
   state.jobs.set_motion(step, std::move(way), std::move(leg));
   state.lanes.renew_later();
-  ++state.version;
 }
 
 void give_up(State& state, Step& step, const AfterStop& after) {
@@ -240,7 +233,6 @@ void give_up(State& state, Step& step, const AfterStop& after) {
 }
 
 void stop_arms(State& state, const Stop& stop) {
-  ++state.version;  // an answer that is under way shall start nothing on these arms
   for (const auto& [arm, cause, until_connected] : stop.arms) {
     state.arms.stop(arm, cause, until_connected);
     if (state.jobs.queues()[arm].empty()) continue;

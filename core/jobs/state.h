@@ -41,7 +41,6 @@ struct State {
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
   Round round = {};
-  Version version = 1;      // grows when the admitted motions, the arms' rests or the scene change
   Version scene_epoch = 0;  // the version since which the scene is unchanged
   TimePoint now{};          // of the present step
   Decided decided = {};     // in the present step
@@ -54,6 +53,24 @@ struct State {
         speed(cell->arms.size()),
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
+
+  // Grows when the admitted motions, the arms' rests, the waiting jobs' paths, the scene, the
+  // policy or the speed override change. Each owner counts its own changes.
+  [[nodiscard]] Version version() const { return 1 + jobs.changes() + arms.changes() + changes_; }
+  void change_scene() {
+    ++changes_;
+    scene_epoch = version();
+  }
+  // Precondition: no motion is admitted.
+  void change_policy(std::shared_ptr<const Policy> next) {
+    policy = std::move(next);
+    round = {};
+    ++changes_;
+  }
+  void set_speed(std::optional<ArmId> arm, double share) {
+    speed.set(arm, share, now);
+    ++changes_;
+  }
 
   // Returns the motion clock at `now`.
   [[nodiscard]] TimePoint clock() const { return speed.clock(now); }
@@ -69,9 +86,12 @@ struct State {
   // Returns true if the job's last check still applies. Precondition: the job is waiting.
   [[nodiscard]] bool is_judged(const Step& step) const {
     const Judgement& found = step.judgement();
-    if (found.at != version) return false;
+    if (found.at != version()) return false;
     return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, step.id);
   }
+
+ private:
+  Version changes_ = 0;  // of the scene, the policy and the speed override
 };
 
 }  // namespace armloom

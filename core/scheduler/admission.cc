@@ -60,7 +60,6 @@ void go_on(State& state, Step& step, const Verdict& verdict) {
   if (!waits.empty()) return put_off(state, step, std::move(waits));
   enter(state, step, Admitted{});
   step.times.scheduled_at = state.now;
-  ++state.version;
   note_free(state, step);
   state.jobs.changed(step);
 }
@@ -123,12 +122,12 @@ void Admission::ask(State& state, std::vector<StepId> steps, SafeSequence::Outlo
   std::vector<Passage> unknown = std::move(outlook.unknown);
   std::ranges::move(outlook.ahead, std::back_inserter(unknown));
   add_passages(question, unknown, state);
-  open_ = OpenQuestion{state.version, std::move(steps), purpose, {}, std::move(unknown)};
+  open_ = OpenQuestion{state.version(), std::move(steps), purpose, {}, std::move(unknown)};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
 void Admission::ask_about(State& state, StepId step, Question question, Purpose purpose) {
-  open_ = OpenQuestion{state.version, {step}, purpose};
+  open_ = OpenQuestion{state.version(), {step}, purpose};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
@@ -136,7 +135,7 @@ void Admission::ask_yield(State& state, YieldTrial move) {
   if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
   open_ =
-      OpenQuestion{state.version, {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
+      OpenQuestion{state.version(), {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
   state.decided.effects.push_back(Judge{std::move(question)});
 }
 
@@ -148,7 +147,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   open_.reset();
   if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
   state.lanes.learn(question.passages, input.verdict, state.jobs);
-  if (question.version != state.version) return;  // stale: it is asked again
+  if (question.version != state.version()) return;  // stale: it is asked again
   switch (question.purpose) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
@@ -277,7 +276,7 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps
 // one; where that fails too, these go alone. Whether something else is asked now.
 bool Admission::tries_together(State& state, const std::vector<StepId>& steps, bool can_go) {
   if (!state.policy->lookahead.admits_groups) return false;
-  const bool tried = together_ && together_->version == state.version;
+  const bool tried = together_ && together_->version == state.version();
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
     const std::vector<StepId> alone = std::exchange(together_->alone, {});
@@ -293,7 +292,7 @@ bool Admission::tries_together(State& state, const std::vector<StepId>& steps, b
   if (outlook.all) return false;
   const std::vector<StepId> all = with_all_that_wait(state, steps);
   if (all.size() == steps.size() || all.size() > kTogetherMax) return false;
-  together_ = Together{state.version, steps};
+  together_ = Together{state.version(), steps};
   ask(state, all, outlook_with(state, all));
   return true;
 }

@@ -35,7 +35,7 @@ void note_overtaken(State& state, const std::vector<StepId>& admitted) {
 }  // namespace
 
 void note_free(State& state, Step& step) {
-  step.asking.found_free_at = state.version;
+  step.asking.found_free_at = state.version();
   step.asking.is_in_question = false;
 }
 
@@ -49,7 +49,6 @@ void admit(State& state, const std::vector<StepId>& steps,
                             promises_of(*state.cell, trajectory.arms()).free_run();
   }
   state.graph.admit(candidates, orders);
-  ++state.version;
   const std::size_t before = state.graph.motions().size() - steps.size();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     Step& step = state.jobs.at(steps[i]);
@@ -58,10 +57,10 @@ void admit(State& state, const std::vector<StepId>& steps,
     step.times.scheduled_at = state.now + orders.prediction.begins[before + i];
     step.waits_on.clear();
     step.starvation.reset();
-    note_free(state, step);
     step.asking.effort = 1;
     state.jobs.changed(step);
   }
+  for (StepId id : steps) note_free(state, state.jobs.at(id));
   state.expected.renew(state.graph.motions(), orders.prediction, state.now);
   note_overtaken(state, steps);
 }

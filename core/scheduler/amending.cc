@@ -29,7 +29,6 @@ void amend(State& state, const Amend& input) {
         id != step->id.job && other.job->errand.on_behalf_of == step->id.job;
     if (is_on_its_behalf) set_priority(state, other, *priority);
   }
-  ++state.version;
   state.expected.spoil();
 }
 

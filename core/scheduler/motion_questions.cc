@@ -67,7 +67,7 @@ double off_path_of(const State& state, const Step& step) {
 }
 
 Question question_now(const State& state, const std::vector<StepId>& candidates) {
-  Question question{.version = state.version,
+  Question question{.version = state.version(),
                     .start_at = state.now,
                     .candidates = {},
                     .others = {},

@@ -78,7 +78,7 @@ void put_off(State& state, Step& step, std::vector<Wait> waits) {
   if (gives_detour_up(state, step)) return;
   for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(step, wait);
   state.jobs.set_waits(step, waits);
-  judgement_of(step) = {state.version, std::move(waits)};
+  judgement_of(step) = {state.version(), std::move(waits)};
   if (!is_at_head(state, step)) return;  // it has had no turn yet
   if (!step.ages_from) step.ages_from = {state.now, state.clock()};
   const auto* queued = step.in<Queued>();
@@ -100,7 +100,8 @@ bool put_off_where_it_stands(State& state, Step& step) {
 }
 
 void wait_behind(State& state, Step& step, JobId first) {
-  stay_queued(state, step, {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
+  stay_queued(state, step,
+              {state.version(), {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
 }
 
 void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook) {
@@ -112,7 +113,7 @@ void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook
     wait.own_time = step.trajectory->duration();
     wait.other_time = outlook.block->time;
   }
-  stay_queued(state, step, {state.version, {std::move(wait)}, outlook.first});
+  stay_queued(state, step, {state.version(), {std::move(wait)}, outlook.first});
 }
 
 void refuse(State& state, Step& step, const Verdict& verdict) {

@@ -64,28 +64,22 @@ void take(State& state, const Stop& input) {
 
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
-  ++state.version;
   for (ArmId arm : input.arms) rejoin(state, arm);
   explain_again(state, input.arms);
 }
 
 void take(State& state, const Unlocated& input) {
   state.arms.set_unlocated(input.arm, input.may_meet);
-  ++state.version;  // an answer that is under way shall start nothing beside this arm
   explain_again(state, input.may_meet);
 }
 
 void take(State& state, const Located& input) {
   const std::vector<ArmId> beside = state.arms.set_located(input.arm);
-  if (!beside.empty()) {
-    ++state.version;
-    explain_again(state, beside);
-  }
+  explain_again(state, beside);
   const auto& queue = state.jobs.queues()[input.arm];
   Step* head = queue.empty() ? nullptr : &state.jobs.at(queue.front());
   if (head != nullptr && head->has_authority()) return;
   state.arms.locate(*state.cell, input.arm, input.position);
-  ++state.version;
   state.lanes.renew_later();
   rejoin(state, input.arm);
   compare_again(state);
@@ -99,21 +93,19 @@ void take(State& state, const StartRecorded& input) {
 void take(State& state, const SetSpeed& input) { set_speed(state, input); }
 
 void take(State& state, const SceneChanged& input) {
-  state.scene_epoch = ++state.version;
+  state.change_scene();
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
     Step& step = state.jobs.at(id);
     const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
-    if (std::ranges::any_of(step.leg.arms, is_named)) step.asking.is_in_question = true;
+    if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs.put_in_question(step);
   }
   state.lanes.forget_passages();
 }
 
 void take(State& state, const ChangePolicy& input) {
   if (!state.graph.motions().empty()) return;
-  state.policy = input.policy;
-  state.round = {};
-  ++state.version;
+  state.change_policy(input.policy);
 }
 
 void take(State& state, const Interrupt& input) { interrupt(state, input.keeps_waiting); }
@@ -160,7 +152,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   if (now < state_.now) throw std::invalid_argument("Scheduler: time went backwards");
   state_.now = now;
   const auto* report = std::get_if<MotionReport>(&input);
-  const Version version_before = state_.version;
+  const Version version_before = state_.version();
   std::visit(
       [this](const auto& i) {
         if constexpr (requires { take(state_, i); }) {
@@ -174,7 +166,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
                              state_.jobs.news().changed.empty() &&
-                             state_.version == version_before && !is_due();
+                             state_.version() == version_before && !is_due();
   if (only_progress) return std::exchange(state_.decided.effects, {});
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
@@ -307,7 +299,7 @@ void Scheduler::forget(JobId ended) {
 
 std::optional<Duration> Scheduler::earliest_start(const Question& question,
                                                   const Verdict& verdict) const {
-  if (verdict.kind != Verdict::Kind::free || question.version != state_.version) {
+  if (verdict.kind != Verdict::Kind::free || question.version != state_.version()) {
     return std::nullopt;
   }
   if (question.candidates.size() != 1) return std::nullopt;

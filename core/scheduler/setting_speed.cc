@@ -37,8 +37,7 @@ void renew_clocks(const State& state, Step& step, bool rested) {
 void set_speed(State& state, const SetSpeed& input) {
   if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
   const SpeedOverride before = state.speed;
-  state.speed.set(input.arm, input.share, state.now);
-  ++state.version;  // an answer that is under way shall start nothing at share 0
+  state.set_speed(input.arm, input.share);
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
     Step& step = state.jobs.at(id);

@@ -23,12 +23,11 @@ void compare_again(State& state) {
   const std::vector<JobId> ids = state.jobs.past_queue();
   for (JobId id : ids) {
     Step& step = state.jobs.at(id);
-    step.asking.is_in_question = true;
+    state.jobs.put_in_question(step);
     const bool is_kept =
         step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
     if (is_kept) withdraw(state, step, {});
   }
-  ++state.version;
 }
 
 void see_standing(State& state) {

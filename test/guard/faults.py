@@ -29,7 +29,7 @@ SCHEDULER = [
     ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
     ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
     ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(step.id);\n  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended'),
-    ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) step.asking', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) step.asking'),
+    ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) state.jobs'),
     ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
     ('an admitted motion is missing in the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;'),
     ('the question assumes that all arms are at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),

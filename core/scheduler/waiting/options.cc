@@ -165,7 +165,6 @@ bool take_arms_that_remain(State& state, const std::vector<StepId>& go) {
     if (!is_shut(state, step)) continue;
     any |= takes_arm_that_remains(state, step, "other arms come to rest in its path");
   }
-  if (any) ++state.version;
   return any;
 }
 
@@ -182,7 +181,6 @@ bool leaves_by_other_arm(State& state, const WaitCycle& ring) {
     if (!takes_arm_that_remains(state, step, "the job would wait forever in a deadlock cycle"))
       continue;
     queued->judgement = {};
-    ++state.version;
     return true;
   }
   return false;

@@ -111,10 +111,7 @@ bool is_to_pass_another_place(const State& state, const Step& step, const GoalWa
 
 void ask(State& state, Step& step, GoalWay& way, const Configuration& at) {
   PlanQuestion question = question_about(state, step, way, at);  // by what was found of it
-  if (std::exchange(step.goal->is_planned, false)) {
-    state.lanes.renew_later();
-    ++state.version;
-  }
+  if (state.jobs.set_planned(step, false)) state.lanes.renew_later();
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
@@ -171,10 +168,7 @@ Answered answer_of(State& state, Step& step) {
   if (not_asked && !(planned && has_turn_on_some_arm(state, step))) return Answered::not_asked;
   if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
   if (step.has_open_arm() && *planned != goal.taken) take_alternative(state, step, *planned);
-  if (!std::exchange(goal.is_planned, true)) {
-    state.lanes.renew_later();
-    ++state.version;
-  }
+  if (state.jobs.set_planned(step, true)) state.lanes.renew_later();
   return Answered::planned;
 }
 
@@ -236,10 +230,8 @@ void forget_plan(State& state, Step& step) {
   GoalWay& way = step.goal->way();
   way.is_planned = false;
   way.request.beside = {};  // fits nowhere
-  step.goal->is_planned = false;
-  state.lanes.renew_later();
+  if (state.jobs.set_planned(step, false)) state.lanes.renew_later();
   state.jobs.explain(step);
-  ++state.version;
 }
 
 void take_goal_plan(State& state, Step& step, GoalWay& way, const PlanMade& answer) {

@@ -12,7 +12,7 @@ namespace armloom {
 void send(State& state, Step& step, PathRequest& request, PlanQuestion question) {
   request.question = ++step.asking.plans;
   request.beside = question.at;
-  request.asked_at = state.version;
+  request.asked_at = state.version();
   ++request.tries;
   state.decided.effects.push_back(PlanMotion{step.id, *request.question, std::move(question)});
 }
