@@ -16,13 +16,6 @@ struct PathRequest {
   Configuration beside = {};
   Version asked_at = 0;  // version of the last question
   int tries = 0;         // questions since the owner last reset this
-
-  // Returns true if this is the number of the open question, which is then closed.
-  [[nodiscard]] bool takes(std::uint64_t number) {
-    if (question != number) return false;
-    question.reset();
-    return true;
-  }
 };
 
 }  // namespace armloom

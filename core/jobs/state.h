@@ -24,13 +24,8 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
-struct Decided {
-  std::vector<YieldMove> sent_aside = {};  // jobs that the scheduler has added
-  std::vector<Effect> effects = {};
-};
-
-// The state that all modules of the scheduler share, with the decisions of the present step. A copy
-// is independent of the original; Trial works on such a copy.
+// The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
+// copy is independent of the original; Trial works on such a copy.
 struct State {
   CellPtr cell;
   std::shared_ptr<const Policy> policy;
@@ -43,7 +38,6 @@ struct State {
   Round round = {};
   Version scene_epoch = 0;  // the version since which the scene is unchanged
   TimePoint now{};          // of the present step
-  Decided decided = {};     // in the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),
@@ -57,20 +51,6 @@ struct State {
   // Grows when the admitted motions, the arms' rests, the waiting jobs' paths, the scene, the
   // policy or the speed override change. Each owner counts its own changes.
   [[nodiscard]] Version version() const { return 1 + jobs.changes() + arms.changes() + changes_; }
-  void change_scene() {
-    ++changes_;
-    scene_epoch = version();
-  }
-  // Precondition: no motion is admitted.
-  void change_policy(std::shared_ptr<const Policy> next) {
-    policy = std::move(next);
-    round = {};
-    ++changes_;
-  }
-  void set_speed(std::optional<ArmId> arm, double share) {
-    speed.set(arm, share, now);
-    ++changes_;
-  }
 
   // Returns the motion clock at `now`.
   [[nodiscard]] TimePoint clock() const { return speed.clock(now); }
@@ -91,6 +71,7 @@ struct State {
   }
 
  private:
+  friend class StateWriter;
   Version changes_ = 0;  // of the scene, the policy and the speed override
 };
 

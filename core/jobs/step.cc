@@ -18,9 +18,16 @@ JobState Step::state() const {
   return moving != nullptr && moving->is_under_way ? JobState::running : JobState::scheduled;
 }
 
+const Pause* Step::pause() const {
+  if (const auto* held = in<Held>()) return &held->pause;
+  const auto* admitted = in<Admitted>();
+  if (admitted != nullptr && admitted->pause) return &*admitted->pause;
+  const auto* moving = in<Moving>();
+  return moving != nullptr && moving->pause ? &*moving->pause : nullptr;
+}
+
 bool Step::pausing() const {
-  if (const auto* admitted = in<Admitted>()) return admitted->pause.has_value();
-  if (const auto* moving = in<Moving>()) return moving->pause.has_value();
+  if (is_admitted()) return pause() != nullptr;
   const auto* braking = in<Braking>();
   return braking != nullptr && braking->paused;
 }

@@ -40,7 +40,7 @@ struct AfterStop {
   std::string detail = {};          // fail
 };
 
-// The phases of a step, each with its own data, and their transitions (phases.h):
+// The phases of a step, each with its own data, and their transitions (transitions.h):
 //
 //   Queued    -> Admitted   with passing orders
 //   Admitted  -> Moving     dispatched to its arms; or back to Queued, Held: withdrawn
@@ -172,7 +172,7 @@ struct AgesFrom {
 // A motion of a job, with everything that the scheduler knows about it. The unit of admission.
 struct Step {
   StepId id;
-  std::shared_ptr<const Job> job;  // changed only by JobBook::change()
+  std::shared_ptr<const Job> job;  // changed only by JobBook
   TrajectoryPtr trajectory;
   // As in Submit. `trajectory` is one of them, and may change to another until admission. Empty
   // once the arm is decided.
@@ -231,6 +231,8 @@ struct Step {
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
   // True if the job rests on its path until others have passed.
   [[nodiscard]] bool pausing() const;
+  // Returns the rest on its path; null if there is none, or if the job brakes.
+  [[nodiscard]] const Pause* pause() const;
   // True if the job must be checked (again) before it moves.
   [[nodiscard]] bool is_waiting() const { return in<Queued>() != nullptr || in<Held>() != nullptr; }
   // True if it has passing orders.

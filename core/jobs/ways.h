@@ -40,7 +40,6 @@ struct JobGoal {
   std::optional<Detour> detour = {};
 
   [[nodiscard]] const GoalWay& way() const { return ways[taken]; }
-  [[nodiscard]] GoalWay& way() { return ways[taken]; }
 };
 
 // Replanning of a job (replanning.h).

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
 #include "core/policies/policy.h"
 #include "core/scheduler/admitting.h"
@@ -43,12 +42,12 @@ std::optional<StepId> next_recheck(const State& state) {
 }
 
 // Of what waits, if these go.
-SafeSequence::Outlook outlook_with(State& state, const std::vector<StepId>& steps) {
-  return state.lanes.after(steps, state.jobs, state.arms);
+SafeSequence::Outlook outlook_with(Transitions& state, const std::vector<StepId>& steps) {
+  return state.lanes().after(steps, state->jobs, state->arms);
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
-void go_on(State& state, Step& step, const Verdict& verdict) {
+void go_on(Transitions& state, const Step& step, const Verdict& verdict) {
   std::vector<Wait> waits;
   for (const PairRegions& pair : verdict.regions) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
@@ -58,17 +57,15 @@ void go_on(State& state, Step& step, const Verdict& verdict) {
         Blocker{step.id, std::nullopt, *arm, region.proximity, region.time_a, region.time_b}));
   }
   if (!waits.empty()) return put_off(state, step, std::move(waits));
-  enter(state, step, Admitted{});
-  step.times.scheduled_at = state.now;
+  state.readmit(step);
   note_free(state, step);
-  state.jobs.changed(step);
 }
 
 }  // namespace
 
 // ---- What is asked ----
 
-bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cycles) {
+bool Admission::ask_next(Transitions& state, const Turns& turns, const WaitCycles& cycles) {
   if (open_) return false;
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
@@ -76,7 +73,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
-    Question question = question_by_itself(state, state.jobs.at(*job));
+    Question question = question_by_itself(state, state->jobs.at(*job));
     ask_about(state, only_step(*job), std::move(question), Purpose::itself);
     return put_off;
   }
@@ -90,12 +87,12 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   }
   std::size_t times_put_off = 0;
   for (; turn; turn = Turns(state).next()) {
-    if (++times_put_off > kPutOffMax * (state.jobs.active().size() + kPutOffMax)) {
+    if (++times_put_off > kPutOffMax * (state->jobs.active().size() + kPutOffMax)) {
       throw std::logic_error("endless loop: one step deferred jobs " +
                              std::to_string(times_put_off) + " times, last job " +
                              std::to_string(turn->value()));
     }
-    if (put_off_where_it_stands(state, state.jobs.at(*turn))) {
+    if (put_off_where_it_stands(state, state->jobs.at(*turn))) {
       put_off = true;
       continue;
     }
@@ -107,7 +104,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
       open_->is_only_option = !is_choice;
       return put_off;
     }
-    wait_in_turn(state, state.jobs.at(step), outlook);
+    wait_in_turn(state, state->jobs.at(step), outlook);
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
@@ -115,52 +112,54 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   return put_off;
 }
 
-void Admission::ask(State& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
+void Admission::ask(Transitions& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
                     Purpose purpose) {
   Question question = question_now(state, steps);
-  question.effort = state.jobs.at(steps.front()).asking.effort;
+  question.effort = state->jobs.at(steps.front()).asking.effort;
   std::vector<Passage> unknown = std::move(outlook.unknown);
   std::ranges::move(outlook.ahead, std::back_inserter(unknown));
   add_passages(question, unknown, state);
-  open_ = OpenQuestion{state.version(), std::move(steps), purpose, {}, std::move(unknown)};
-  state.decided.effects.push_back(Judge{std::move(question)});
+  open_ = OpenQuestion{state->version(), std::move(steps), purpose, {}, std::move(unknown)};
+  state.effect(Judge{std::move(question)});
 }
 
-void Admission::ask_about(State& state, StepId step, Question question, Purpose purpose) {
-  open_ = OpenQuestion{state.version(), {step}, purpose};
-  state.decided.effects.push_back(Judge{std::move(question)});
+void Admission::ask_about(Transitions& state, StepId step, Question question, Purpose purpose) {
+  open_ = OpenQuestion{state->version(), {step}, purpose};
+  state.effect(Judge{std::move(question)});
 }
 
-void Admission::ask_yield(State& state, YieldTrial move) {
+void Admission::ask_yield(Transitions& state, YieldTrial move) {
   if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
-  open_ =
-      OpenQuestion{state.version(), {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
-  state.decided.effects.push_back(Judge{std::move(question)});
+  open_ = OpenQuestion{
+      state->version(), {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
+  state.effect(Judge{std::move(question)});
 }
 
 // ---- What an answer means ----
 
-void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
+void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) {
   if (!open_ || open_->version != input.verdict.version) return;
   OpenQuestion question = std::move(*open_);
   open_.reset();
   if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
-  state.lanes.learn(question.passages, input.verdict, state.jobs);
-  if (question.version != state.version()) return;  // stale: it is asked again
+  state.lanes().learn(question.passages, input.verdict, state->jobs);
+  if (question.version != state->version()) return;  // stale: it is asked again
   switch (question.purpose) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
-      Step& step = state.jobs.at(question.steps.front());
-      step.approaches.feasibility = Approaches::Feasibility::given;
+      const Step& step = state->jobs.at(question.steps.front());
+      Approaches approaches = step.approaches;
+      approaches.feasibility = Approaches::Feasibility::given;
+      state.jobs().set(step, std::move(approaches));
       if (input.verdict.kind == Verdict::Kind::conflict) {
         (void)fails_by_itself(state, step, input.verdict);
       }
       return;
     }
     case Purpose::recheck: {
-      Step& step = state.jobs.at(question.steps.front());
+      const Step& step = state->jobs.at(question.steps.front());
       note_free(state, step);
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, step, input.verdict);
       return;
@@ -175,7 +174,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   }
 }
 
-void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial move,
+void Admission::answer_yield(Transitions& state, const Verdict& verdict, YieldTrial move,
                              WaitCycles& cycles) {
   if (!is_as_asked(state, move)) return;
   const bool passes = lets_through(state, verdict, move);
@@ -189,7 +188,7 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
   if (move.before) cycles.has_opened(state, *move.before);
 }
 
-void Admission::answer_option(State& state, Verdict verdict) {
+void Admission::answer_option(Transitions& state, Verdict verdict) {
   if (!choosing_.stands(state)) return;
   if (choosing_.rate(state, std::move(verdict))) {
     const std::vector<StepId> next{only_step(choosing_.job())};
@@ -197,25 +196,26 @@ void Admission::answer_option(State& state, Verdict verdict) {
   }
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {only_step(choosing_.job())});
-  Step& step = state.jobs.at(choosing_.job());
-  wait_behind(state, step, state.jobs.queues().before(step, step.leg.arms.front())->job);
+  const Step& step = state->jobs.at(choosing_.job());
+  wait_behind(state, step, state->jobs.queues().before(step, step.leg.arms.front())->job);
 }
 
-void Admission::answer_start(State& state, const Verdict& verdict,
+void Admission::answer_start(Transitions& state, const Verdict& verdict,
                              const std::vector<StepId>& steps) {
-  Step& first = state.jobs.at(steps.front());
+  const Step& first = state->jobs.at(steps.front());
   if (verdict.kind == Verdict::Kind::free) {
-    if (state.graph.holds(first.id)) return go_on(state, first, verdict);
+    if (state->graph.holds(first.id)) return go_on(state, first, verdict);
     return decide(state, verdict, steps);
   }
-  if (is_asked_again(first, verdict)) return;
+  if (is_asked_again(state, first, verdict)) return;
   if (steps.size() == 1) return refuse(state, first, verdict);
   if (tries_together(state, steps, false)) return;
   put_off(state, first, first.judgement().found);  // one that was to help it cannot go
 }
 
-void Admission::decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps) {
-  Step& first = state.jobs.at(steps.front());
+void Admission::decide(Transitions& state, const Verdict& verdict,
+                       const std::vector<StepId>& steps) {
+  const Step& first = state->jobs.at(steps.front());
   if (!follow_each_other(state, steps)) {
     // Another arm was chosen for a job before one of these, or its plan is old.
     if (steps.size() > 1 && !tries_together(state, steps, false)) {
@@ -225,11 +225,12 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<S
   }
   prepare_choice(state, steps);
   std::vector<CoordinatedMotion> candidates;
-  for (StepId step : steps) candidates.push_back(as_candidate(state, state.jobs.at(step)));
+  for (StepId step : steps) candidates.push_back(as_candidate(state, state->jobs.at(step)));
   const PassingOrders orders =
-      state.policy->decide(state.graph.question(candidates, verdict.regions));
+      state->policy->decide(state->graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
-  if (!can_go && is_asked_again(first, verdict)) return;  // what stands against it is not known yet
+  if (!can_go && is_asked_again(state, first, verdict))
+    return;  // what stands against it is not known yet
   if (can_go && take_arms_that_remain(state, steps)) return;
   if (steps.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, steps, can_go)) return;
@@ -245,21 +246,21 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<S
   for (const Blocker& blocker : orders.blockers) {
     if (blocker.blocked != first.id) continue;
     if (blocker.arm) {
-      state.lanes.learn_in_the_way(first.id, *blocker.arm, {blocker.proximity, blocker.own_time},
-                                   state.jobs, state.arms);
+      state.lanes().learn_in_the_way(first.id, *blocker.arm, {blocker.proximity, blocker.own_time},
+                                     state->jobs, state->arms);
     }
     waits.push_back(wait_for(blocker));
   }
-  if (steps.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
+  if (steps.size() == 1 || !waits.empty()) note_found(state, first, std::move(waits));
   std::vector<StepId> group = with_next_jobs(state, steps, orders.in_the_way);
   if (group.size() > steps.size()) return ask(state, group, outlook_with(state, group));
   put_off(state, first, first.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
-bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps) {
+bool Admission::leaves_a_sequence(Transitions& state, const std::vector<StepId>& steps) {
   auto outlook = outlook_with(state, steps);
-  Step& first = state.jobs.at(steps.front());
+  const Step& first = state->jobs.at(steps.front());
   if (!outlook.unknown.empty()) {
     ask(state, steps, std::move(outlook));
   } else if (outlook.first && steps.size() > 1) {
@@ -274,9 +275,9 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps
 
 // For some of what waits there is no order one by one, whether these go or not: all are tried as
 // one; where that fails too, these go alone. Whether something else is asked now.
-bool Admission::tries_together(State& state, const std::vector<StepId>& steps, bool can_go) {
-  if (!state.policy->lookahead.admits_groups) return false;
-  const bool tried = together_ && together_->version == state.version();
+bool Admission::tries_together(Transitions& state, const std::vector<StepId>& steps, bool can_go) {
+  if (!state->policy->lookahead.admits_groups) return false;
+  const bool tried = together_ && together_->version == state->version();
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
     const std::vector<StepId> alone = std::exchange(together_->alone, {});
@@ -292,7 +293,7 @@ bool Admission::tries_together(State& state, const std::vector<StepId>& steps, b
   if (outlook.all) return false;
   const std::vector<StepId> all = with_all_that_wait(state, steps);
   if (all.size() == steps.size() || all.size() > kTogetherMax) return false;
-  together_ = Together{state.version(), steps};
+  together_ = Together{state->version(), steps};
   ask(state, all, outlook_with(state, all));
   return true;
 }

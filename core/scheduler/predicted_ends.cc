@@ -17,35 +17,35 @@ const Braking* ends_by_braking(const Step& step) {
 // The last job of an arm says where it ends.
 Configuration Scheduler::predicted_rest() const {
   Configuration q = rest();
-  for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
-    const auto& queue = state_.jobs.queues()[ArmId{arm}];
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    const Step& last = state_.jobs.at(queue.back());
+    const Step& last = state_->jobs.at(queue.back());
     const Braking* braking = ends_by_braking(last);
     if (braking == nullptr || !braking->rests_at) {
-      follow_to_end(q, *state_.cell, ArmId{arm}, *last.trajectory);
+      follow_to_end(q, *state_->cell, ArmId{arm}, *last.trajectory);
       continue;
     }
     Eigen::VectorXd stop;
     last.trajectory->sample_positions(*braking->rests_at, stop);
-    set_joints_of(q, *state_.cell, ArmId{arm}, *last.trajectory, stop);
+    set_joints_of(q, *state_->cell, ArmId{arm}, *last.trajectory, stop);
   }
   return q;
 }
 
 std::vector<ArmId> Scheduler::open_ends() const {
   std::vector<ArmId> open;
-  for (std::uint32_t arm = 0; arm < state_.cell->arms.size(); ++arm) {
-    const auto& queue = state_.jobs.queues()[ArmId{arm}];
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    const Step& last = state_.jobs.at(queue.back());
+    const Step& last = state_->jobs.at(queue.back());
     const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
     const Braking* braking = ends_by_braking(last);
     const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
     if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
   }
-  for (JobId id : state_.jobs.undecided()) {
-    const Step& step = state_.jobs.at(id);
+  for (JobId id : state_->jobs.undecided()) {
+    const Step& step = state_->jobs.at(id);
     if (!step.goal) continue;
     for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
   }

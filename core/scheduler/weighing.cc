@@ -23,22 +23,22 @@ std::vector<Duration> work_behind(const State& state, const std::vector<const St
   return work;
 }
 
-void prepare_choice(State& state, const std::vector<StepId>& steps) {
+void prepare_choice(Transitions& state, const std::vector<StepId>& steps) {
   std::vector<const Step*> in_front;
-  for (StepId step : steps) in_front.push_back(&state.jobs.at(step));
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Step& step = state.jobs.at(motion.step);
-    const bool weighs = state.policy->lookahead.weighs_again;
-    const Duration stands = weighs ? stood_for(*state.cell, step, state.now) : Duration{};
-    const bool is_aged = state.has_aged(step);
-    const double planned = state.speed.pace(motion.arms);
-    state.graph.set_outlook(
+  for (StepId step : steps) in_front.push_back(&state->jobs.at(step));
+  for (const CoordinatedMotion& motion : state->graph.motions()) {
+    const Step& step = state->jobs.at(motion.step);
+    const bool weighs = state->policy->lookahead.weighs_again;
+    const Duration stands = weighs ? stood_for(*state->cell, step, state->now) : Duration{};
+    const bool is_aged = state->has_aged(step);
+    const double planned = state->speed.pace(motion.arms);
+    state.set_outlook(
         motion.step, {.keeps_its_place = is_aged && stands <= Duration{},
                       .stands_for = stands,
-                      .pace = weighs ? pace_of(*state.cell, step, planned, state.now) : planned});
+                      .pace = weighs ? pace_of(*state->cell, step, planned, state->now) : planned});
     in_front.push_back(&step);
   }
-  state.graph.set_work_behind(work_behind(state, in_front));
+  state.set_work_behind(work_behind(state, in_front));
 }
 
 bool is_off_course(const State& state) {
@@ -46,17 +46,12 @@ bool is_off_course(const State& state) {
          state.expected.is_missed(state.graph.motions(), state.now);
 }
 
-void weigh_again(State& state) {
+void weigh_again(Transitions& state) {
   if (!is_off_course(state)) return;
   prepare_choice(state, {});
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<PairRegions> nothing;
-  const PassingOrders orders = state.policy->decide(state.graph.question(nobody, nothing));
-  const std::size_t motions = state.graph.motions().size();
-  // None found, as when admitted motions wait for each other: then the orders of before stand.
-  const bool found = orders.blockers.empty() && orders.prediction.ends.size() == motions;
-  if (found) state.graph.admit(nobody, orders);
-  state.expected.renew(found ? state.graph.motions() : nobody, orders.prediction, state.now);
+  state.renew_orders(state->policy->decide(state->graph.question(nobody, nothing)));
 }
 
 // Who moves may be late. Who was stopped may stand for longer than expected, while another one

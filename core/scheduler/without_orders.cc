@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/jobs/pace.h"
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/model/promises.h"
 #include "core/policies/policy.h"
@@ -18,29 +17,31 @@ bool has_no_orders(const State& state) {
 
 }  // namespace
 
-void compare_again(State& state) {
+void compare_again(Transitions& state) {
   if (!has_no_orders(state)) return;
-  const std::vector<JobId> ids = state.jobs.past_queue();
+  const std::vector<JobId> ids = state->jobs.past_queue();
   for (JobId id : ids) {
-    Step& step = state.jobs.at(id);
-    state.jobs.put_in_question(step);
+    const Step& step = state->jobs.at(id);
+    state.jobs().put_in_question(step);
     const bool is_kept =
         step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
-    if (is_kept) withdraw(state, step, {});
+    if (is_kept) state.withdraw(step, {});
   }
 }
 
-void see_standing(State& state) {
+void see_standing(Transitions& state) {
   if (!has_no_orders(state)) return;
   bool is_news = false;
-  const std::vector<JobId> ids = state.jobs.past_queue();
+  const std::vector<JobId> ids = state->jobs.past_queue();
   for (JobId id : ids) {
-    Step& step = state.jobs.at(id);
-    auto* moving = std::get_if<Moving>(&step.phase);
-    if (moving == nullptr || moving->was_compared || !is_standing(*state.cell, step, state.now)) {
+    const Step& step = state->jobs.at(id);
+    const auto* moving = step.in<Moving>();
+    if (moving == nullptr || moving->was_compared || !is_standing(*state->cell, step, state->now)) {
       continue;
     }
-    moving->was_compared = is_news = true;
+    Moving next = *moving;
+    next.was_compared = is_news = true;
+    state.jobs().set(step, next);
   }
   if (is_news) compare_again(state);
 }

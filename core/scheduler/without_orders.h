@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -10,9 +10,9 @@ namespace armloom {
 
 // Call when an arm brakes, or rests off its goal. All motions under way will be checked again.
 // Scheduled jobs whose arms are stopped return to the queue.
-void compare_again(State& state);
+void compare_again(Transitions& state);
 // Does the same if an arm under way has newly come to rest (late, stalled).
-void see_standing(State& state);
+void see_standing(Transitions& state);
 // Returns when see_standing() must be called next.
 [[nodiscard]] std::optional<TimePoint> stands_next(const State& state);
 

@@ -48,12 +48,12 @@ std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue
 }
 
 // Whose waits may be others than they were told. Ascending.
-std::vector<JobId> to_explain(State& state) {
-  const std::set<JobId> unexplained = std::exchange(state.jobs.news().unexplained, {});
+std::vector<JobId> to_explain(Transitions& state) {
+  const std::set<JobId> unexplained = state.jobs().take_unexplained();
   std::vector<JobId> jobs;
-  jobs.reserve(unexplained.size() + 2 * state.cell->arms.size() + kUndecidedMax);
+  jobs.reserve(unexplained.size() + 2 * state->cell->arms.size() + kUndecidedMax);
   jobs.assign(unexplained.begin(), unexplained.end());
-  for (const auto& queue : state.jobs.queues()) {
+  for (const auto& queue : state->jobs.queues()) {
     if (queue.empty()) continue;
     jobs.push_back(queue.front().job);
     const auto first = first_that_waits(state, queue);
@@ -163,21 +163,21 @@ std::optional<JobId> Turns::next() const {
 }
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
-Turns explain_waits(State& state) {
+Turns explain_waits(Transitions& state) {
   Turns turns(state);
   for (JobId id : to_explain(state)) {
-    Step& step = state.jobs.at(id);
+    const Step& step = state->jobs.at(id);
     const bool waits = step.is_waiting();
     if (!waits && step.in<Admitted>() == nullptr) continue;
     const auto closed = waits ? closed_gate(turns, step) : first_closed(state, step, blocks_start);
     turns.has_found(id, closed.has_value());
-    if (closed && closed->gate.starts_age && !step.ages_from) {
-      step.ages_from = {state.now, state.clock()};
+    if (closed && closed->gate.starts_age) {
+      state.jobs().begin_age(step, {state->now, state->clock()});
     }
     if (closed) {
-      state.jobs.set_waits(step, closed->waits.all());
+      state.jobs().set_waits(step, closed->waits.all());
     } else if (waits) {  // is checked next; until then it waits for what its last check found
-      state.jobs.set_waits(step, step.judgement().found);
+      state.jobs().set_waits(step, step.judgement().found);
     }
   }
   return turns;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/deadlock/waits_for.h"
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -50,6 +50,6 @@ class Turns {
 
 // Updates the published waits of all jobs for which they may have changed, to the first blocking
 // condition. Returns the turns, which are valid until the state changes.
-Turns explain_waits(State& state);
+Turns explain_waits(Transitions& state);
 
 }  // namespace armloom

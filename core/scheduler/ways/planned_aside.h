@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
@@ -11,8 +11,8 @@ namespace armloom {
 // other retreat.
 
 // Requests the plan (PlanMotion), unless a request is open. Precondition: the trial has no path.
-void ask_for_way_aside(State& state, const YieldTrial& move);
+void ask_for_way_aside(Transitions& state, const YieldTrial& move);
 // Handles the planner's answer for a retreat of the arm.
-void take_way_aside(const State& state, ArmId arm, YieldsTried& tried, const PlanMade& answer);
+void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer);
 
 }  // namespace armloom

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/jobs/phases.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
@@ -21,13 +20,13 @@ bool returns_from(const Step& own, const std::vector<JobId>& moves) {
 // Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
 // move that stays is done is not where it stands now, so what follows that stays too. Needless ones
 // as they are to end: who does not go does not return.
-void pass_on(State& state, const ArmQueues::Queue& queue, std::vector<JobId>& needless) {
-  const auto is_of_a_client = [&](StepId step) { return !state.jobs.at(step).job->system_job; };
+void pass_on(Transitions& state, const ArmQueues::Queue& queue, std::vector<JobId>& needless) {
+  const auto is_of_a_client = [&](StepId step) { return !state->jobs.at(step).job->system_job; };
   const auto next = std::ranges::find_if(queue, is_of_a_client);
   if (next == queue.end()) return;
   bool all_end = true;
   for (auto step = queue.begin(); step != next; ++step) {
-    Step& own = state.jobs.at(*step);
+    const Step& own = state->jobs.at(*step);
     if (own.in<Queued>() == nullptr) return;
     if (returns_from(own, needless)) {
       needless.insert(needless.begin(), own.id.job);
@@ -38,7 +37,9 @@ void pass_on(State& state, const ArmQueues::Queue& queue, std::vector<JobId>& ne
         needless.push_back(own.id.job);
         continue;
       }
-      state.jobs.change(own).errand.on_behalf_of = next->job;
+      Job job = *own.job;
+      job.errand.on_behalf_of = next->job;
+      state.jobs().set(own, std::move(job));
     }
     all_end = false;
   }
@@ -46,13 +47,13 @@ void pass_on(State& state, const ArmQueues::Queue& queue, std::vector<JobId>& ne
 
 }  // namespace
 
-void pass_errands_on(State& state) {
+void pass_errands_on(Transitions& state) {
   std::vector<JobId> needless;
-  for (const auto& queue : state.jobs.queues()) pass_on(state, queue, needless);
+  for (const auto& queue : state->jobs.queues()) pass_on(state, queue, needless);
   for (JobId id : needless) {
-    Step& own = state.jobs.at(id);
-    end(state, own, JobState::canceled, Reason::canceled_by_client,
-        "the job that it was to help has ended");
+    const Step& own = state->jobs.at(id);
+    state.end(own, JobState::canceled, Reason::canceled_by_client,
+              "the job that it was to help has ended");
   }
 }
 

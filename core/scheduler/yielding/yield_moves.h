@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/deadlock/waits_for.h"
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -19,9 +19,12 @@ struct YieldTrial {
   std::size_t index = 0;             // into the candidates from the arm's present rest
 };
 
+// Returns what was tried with retreats of this arm for the job.
+[[nodiscard]] const YieldsTried& tried_for(const Step& step, ArmId arm);
+
 // Returns the first untried retreat of an idle arm for which a job waits. If none is left, marks
 // the wait (Wait::has_no_way_aside).
-[[nodiscard]] std::optional<YieldTrial> next_yield(State& state);
+[[nodiscard]] std::optional<YieldTrial> next_yield(Transitions& state);
 // Returns an untried retreat of an arm in the cycle, before that arm's job; nullopt if there is
 // none. Tries the arm first whose job was submitted last and would fail otherwise. Returns nullopt
 // if the cycle contains a retreat that no client job needs, because that retreat fails instead.
@@ -37,7 +40,7 @@ struct YieldTrial {
 // with arms that may still move away do not matter.
 [[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
 // Records that the retreat was tried, and if `goes` that it is made.
-void note_tried(State& state, const YieldTrial& move, bool goes);
+void note_tried(Transitions& state, const YieldTrial& move, bool goes);
 
 // Returns true if the arm's next client job relies on `own`, a job of the server: the job begins
 // where `own` brings the arm. False for a job with a goal, which begins anywhere.
