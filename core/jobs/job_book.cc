@@ -48,7 +48,7 @@ const Step& JobBook::add(Step step) {
   if (before) unexplained_.insert(*before);
   ++priorities_[step.job->terms.priority];
   for (JobId first : step.job->after) followers_[first].push_back(id);
-  changed(step);
+  changed_.insert(id);
   return steps_.emplace(step.id, std::move(step)).first->second;
 }
 
@@ -254,8 +254,7 @@ std::vector<JobId> JobBook::end(const Step& step, Ended how) {
 
 std::vector<const Step*> occupying(const JobBook& book) {
   std::vector<const Step*> steps;
-  for (JobId id : book.past_queue()) {
-    const Step& step = book.at(id);
+  for (const Step& step : book.past_queue()) {
     if (step.in<Held>() != nullptr || step.has_authority()) steps.push_back(&step);
   }
   return steps;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,6 +27,8 @@ class JobIds {
   std::uint64_t last_former_ = 0;
 };
 
+using Steps = std::vector<std::reference_wrapper<const Step>>;
+
 // All jobs and their places in the arm queues. Others read; the public transitions concern a job
 // alone. Those with consequences for orders, rests or the safe sequence belong to Transitions.
 class JobBook : public StepFacts {
@@ -34,10 +37,21 @@ class JobBook : public StepFacts {
 
   [[nodiscard]] JobId next_id() const { return ids_.next(); }
   [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
-  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`.
-  // Ascending ids.
+  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`, as
+  // they are now. Ascending ids.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }
-  [[nodiscard]] const std::vector<JobId>& past_queue() const { return past_queue_; }
+  [[nodiscard]] Steps past_queue() const {
+    const auto steps = of(past_queue_);
+    return {steps.begin(), steps.end()};
+  }
+  // Returns the first step of each queue that is not empty.
+  [[nodiscard]] Steps heads() const {
+    Steps steps;
+    for (const auto& queue : queues_) {
+      if (!queue.empty()) steps.emplace_back(at(queue.front()));
+    }
+    return steps;
+  }
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // Returns the queued jobs that could still run on other arms.
@@ -73,6 +87,8 @@ class JobBook : public StepFacts {
   void put_in_order(const std::vector<JobId>& jobs);
   // Gives a waiting job one of its alternatives, at position `place` of that arm's queue.
   void take(const Step& step, std::size_t which, WaitingLeg leg, std::size_t place);
+  // The path has again the number that it had.
+  void restore(const Step& step, std::uint64_t motion) { edit(step).leg.motion = motion; }
   // Sets the planned or a new path. Precondition: the job waits in the queue.
   void set_motion(const Step& step, TrajectoryPtr trajectory, WaitingLeg leg);
   // Replaces one of the job's alternatives. If the job has this one now, its motion changes too.

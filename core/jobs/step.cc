@@ -44,19 +44,9 @@ const GoalWay* Step::stands_in() const {
   return first;
 }
 
-std::optional<Reason> Step::reason() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? std::optional(ended->reason) : std::nullopt;
-}
-
-std::string Step::detail() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? ended->detail : std::string();
-}
-
-std::optional<TimePoint> Step::ended_at() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? std::optional(ended->at) : std::nullopt;
+const Braking* Step::ends_by_braking() const {
+  const auto* braking = in<Braking>();
+  return braking != nullptr && braking->after.then != AfterStop::Then::hold ? braking : nullptr;
 }
 
 }  // namespace armloom

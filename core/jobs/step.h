@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -64,7 +66,7 @@ struct Moving {
   TimePoint goes_since = {};
   Duration goes_from = {};
   bool is_under_way = false;  // has been measured to move; until then it is `scheduled`
-  // Since it came to rest, motions were compared again (without_orders.h).
+  // Since it came to rest, motions were compared again (weighing.h).
   bool was_compared = false;
   std::optional<Pause> pause = {};
 };
@@ -129,7 +131,7 @@ struct YieldsTried {
   std::size_t total = 0;  // number of tries for this job and for the server's jobs that help it
   std::size_t next = 0;   // index of the next candidate path from where `from` brought the arm
   TrajectoryPtr from;     // the motion that had brought the arm to its rest
-  Planned planned = {};   // the planned retreat from there, tried last (planned_aside.h)
+  Planned planned = {};   // the planned retreat from there, tried last (yielding/yield_moves.h)
   // Ends of retreats made for this job and for the server's jobs that help it.
   std::vector<Eigen::VectorXd> went_to;
 };
@@ -168,6 +170,13 @@ struct AgesFrom {
   TimePoint at;
   TimePoint clock;  // the motion clock (SpeedOverride) then
 };
+
+// Returns the fact with this member changed.
+template <typename Fact, typename Member>
+[[nodiscard]] Fact with(Fact fact, Member Fact::*member, std::type_identity_t<Member> value) {
+  fact.*member = std::move(value);
+  return fact;
+}
 
 // A motion of a job, with everything that the scheduler knows about it. The unit of admission.
 struct Step {
@@ -247,10 +256,16 @@ struct Step {
     return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;
   }
 
+  // Returns the data of a job that brakes and then ends; null if the job goes on to its goal.
+  [[nodiscard]] const Braking* ends_by_braking() const;
   // For a job that has ended.
-  [[nodiscard]] std::optional<Reason> reason() const;
-  [[nodiscard]] std::string detail() const;
-  [[nodiscard]] std::optional<TimePoint> ended_at() const;
+  [[nodiscard]] std::optional<Reason> reason() const { return of_end(&Ended::reason); }
+  [[nodiscard]] std::string detail() const { return of_end(&Ended::detail).value_or(""); }
+  [[nodiscard]] std::optional<TimePoint> ended_at() const { return of_end(&Ended::at); }
+  template <typename T>
+  [[nodiscard]] std::optional<T> of_end(T Ended::*member) const {
+    return has_ended() ? std::optional<T>(in<Ended>()->*member) : std::nullopt;
+  }
   // True if the server moves the arms to its start when they rest elsewhere at its turn.
   [[nodiscard]] bool is_brought_to_start() const {
     return job->terms.move_to_start == MoveToStart::plan || approaches.after_deadlock;

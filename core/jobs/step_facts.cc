@@ -42,41 +42,11 @@ void StepFacts::set(const Step& step, std::optional<Pause> pause) {
   old = pause;
 }
 
-void StepFacts::set(const Step& step, Approaches fact) {
-  explain(step);
-  edit(step).approaches = std::move(fact);
-}
-
-void StepFacts::set(const Step& step, ArmId arm, YieldsTried fact) {
-  edit(step).yields[arm] = std::move(fact);
-}
-
-void StepFacts::set(const Step& step, std::size_t way, GoalWay fact) {
-  explain(step);
-  edit(step).goal->ways[way] = std::move(fact);
-}
-
-void StepFacts::set(const Step& step, std::optional<Detour> fact) {
-  explain(step);
-  edit(step).goal->detour = std::move(fact);
-}
-
 void StepFacts::set(const Step& step, AnotherWay fact) {
-  explain(step);
   if (step.is_replanned_now() != fact.is_open) changed(step);
   fact.is_open ? (void)being_replanned_.insert(step.id.job)
                : (void)being_replanned_.erase(step.id.job);
-  edit(step).another_way = std::move(fact);
-}
-
-void StepFacts::set(const Step& step, Choice fact) {
-  changed(step);
-  edit(step).choice = std::move(fact);
-}
-
-void StepFacts::set(const Step& step, Starvation fact) {
-  changed(step);
-  edit(step).starvation = fact;
+  explained(step).another_way = std::move(fact);
 }
 
 void StepFacts::set(const Step& step, Job fact) {
@@ -87,14 +57,6 @@ void StepFacts::set(const Step& step, Job fact) {
 void StepFacts::put_in_question(const Step& step) {
   edit(step).asking.is_in_question = true;
   ++changes_;
-}
-
-void StepFacts::begin_age(const Step& step, const AgesFrom& from) {
-  if (!step.ages_from) edit(step).ages_from = from;
-}
-
-void StepFacts::begin_overtaken(const Step& step, TimePoint clock) {
-  if (!step.overtaken_at) edit(step).overtaken_at = clock;
 }
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -20,6 +21,11 @@ class StepFacts {
   [[nodiscard]] const Step* find(JobId job) const { return find(only_step(job)); }
   [[nodiscard]] const Step& at(StepId step) const { return steps_.at(step); }
   [[nodiscard]] const Step& at(JobId job) const { return at(only_step(job)); }
+  // Returns the steps of these ids, looked up one by one. `ids` must outlive the result.
+  template <typename Ids>
+  [[nodiscard]] auto of(const Ids& ids) const {
+    return std::views::transform(ids, [this](auto id) -> const Step& { return at(id); });
+  }
   // Returns the jobs that are replanned now.
   [[nodiscard]] const std::set<JobId>& being_replanned() const { return being_replanned_; }
   // Returns the number of changes that have made open answers stale.
@@ -42,24 +48,36 @@ class StepFacts {
   void set(const Step& step, std::optional<Pause> pause);
 
   void set(const Step& step, const Asking& fact) { edit(step).asking = fact; }
-  void set(const Step& step, Approaches fact);
-  void set(const Step& step, ArmId arm, YieldsTried fact);
-  void set(const Step& step, std::size_t way, GoalWay fact);
-  void set(const Step& step, std::optional<Detour> fact);
+  void set(const Step& step, ArmId arm, YieldsTried fact) { edit(step).yields[arm] = fact; }
+  void set(const Step& step, Approaches fact) { explained(step).approaches = std::move(fact); }
+  void set(const Step& step, std::size_t k, GoalWay fact) { explained(step).goal->ways[k] = fact; }
+  void set(const Step& step, std::optional<Detour> fact) { explained(step).goal->detour = fact; }
   void set(const Step& step, AnotherWay fact);
-  void set(const Step& step, Choice fact);
-  void set(const Step& step, Starvation fact);
+  void set(const Step& step, Choice fact) { changed(step).choice = std::move(fact); }
+  void set(const Step& step, const Starvation& fact) { changed(step).starvation = fact; }
   // Replaces what is not of Job::terms or Job::turn.
   void set(const Step& step, Job fact);
   // The admitted motion must be checked again.
   void put_in_question(const Step& step);
   // Start the job's age, or its time as an overtaken job. The first call counts.
-  void begin_age(const Step& step, const AgesFrom& from);
-  void begin_overtaken(const Step& step, TimePoint clock);
+  void begin_age(const Step& step, const AgesFrom& from) {
+    if (!step.ages_from) edit(step).ages_from = from;
+  }
+  void begin_overtaken(const Step& step, TimePoint clock) {
+    if (!step.overtaken_at) edit(step).overtaken_at = clock;
+  }
 
  protected:
   [[nodiscard]] Step& edit(const Step& step) { return steps_.at(step.id); }
-  void changed(const Step& step) { changed_.insert(step.id.job); }
+  // Mark what is out of date, and return the step to be changed.
+  Step& changed(const Step& step) {
+    changed_.insert(step.id.job);
+    return edit(step);
+  }
+  Step& explained(const Step& step) {
+    explain(step);
+    return edit(step);
+  }
 
   std::unordered_map<StepId, Step> steps_;
   std::set<JobId> being_replanned_;

@@ -122,9 +122,7 @@ void Transitions::refuse_approach(const Step& step, Reason reason, const std::st
   if (!in_vain || !step.goal || !step.job->errand.before) return;
   const Step* head = state_.jobs.find(*step.job->errand.before);
   if (head == nullptr) return;
-  Approaches approaches = head->approaches;
-  approaches.refusal = why;
-  state_.jobs.set(*head, std::move(approaches));
+  state_.jobs.set(*head, with(head->approaches, &Approaches::refusal, why));
 }
 
 void Transitions::end(const Step& step, JobState how, Reason reason, std::string detail) {
@@ -149,19 +147,17 @@ void Transitions::end(const Step& step, JobState how, Reason reason, std::string
 void Transitions::interrupt(bool keeps_waiting) {
   const std::set<JobId> ids = state_.jobs.active();
   std::vector<JobId> ends;
-  for (JobId id : ids) {
-    const Step& step = state_.jobs.at(id);
+  for (const Step& step : state_.jobs.of(ids)) {
     Job job = *step.job;
     if (keeps_waiting && !has_begun(step)) {
       job.is_held_over = true;
     } else {
       job.after.clear();  // none fails for another's sake
-      ends.push_back(id);
+      ends.push_back(step.id.job);
     }
     state_.jobs.set(step, std::move(job));
   }
-  for (JobId id : ends) {
-    const Step& step = state_.jobs.at(id);
+  for (const Step& step : state_.jobs.of(ends)) {
     end(step, JobState::interrupted, Reason::server_restart,
         has_begun(step) ? "the server ended while the job was under way"
                         : "the server ended before the job began");
@@ -305,7 +301,7 @@ void Transitions::take_alternative(const Step& step, std::size_t which, std::siz
 }
 
 void Transitions::restore(const Step& step, std::uint64_t motion, Lanes lanes) {
-  state_.jobs.edit(step).leg.motion = motion;
+  state_.jobs.restore(step, motion);
   state_.lanes = std::move(lanes);
   state_.lanes.renew_later();
 }

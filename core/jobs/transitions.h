@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/jobs/state_writer.h"
+#include "core/jobs/state.h"
 
 namespace armloom {
 
@@ -19,7 +19,7 @@ class Transitions : public StateWriter {
   // Adds a job at the end of its arm queues, or before the job Errand::before. `errand`: of a job
   // of the server.
   const Step& add(const Submit& job, const std::optional<Errand>& errand = {});
-  // Adds jobs whose motions are under way, and admits them without a check (under_way.h).
+  // Adds jobs whose motions are under way, and admits them without a check.
   void put_under_way(const std::vector<Motion>& motions,
                      const std::vector<CoordinatedMotion>& admitted);
   // Ends the job. Jobs that name it in `after` no longer wait for it, or fail if it did not

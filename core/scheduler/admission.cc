@@ -2,23 +2,24 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
-#include "core/scheduler/admitting.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/detour.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/making_way.h"
+#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 namespace {
@@ -31,8 +32,7 @@ constexpr std::size_t kPutOffMax = 32;
 // none has.
 std::optional<StepId> next_recheck(const State& state) {
   std::optional<StepId> next;
-  for (JobId id : state.jobs.past_queue()) {
-    const Step& step = state.jobs.at(id);
+  for (const Step& step : state.jobs.past_queue()) {
     if (!step.has_authority() || !step.asking.is_in_question) continue;
     const bool is_older =
         !next || step.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
@@ -44,6 +44,46 @@ std::optional<StepId> next_recheck(const State& state) {
 // Of what waits, if these go.
 SafeSequence::Outlook outlook_with(Transitions& state, const std::vector<StepId>& steps) {
   return state.lanes().after(steps, state->jobs, state->arms);
+}
+
+// Records that a check found the admitted motion free in the present version.
+void note_free(Transitions& state, const Step& step) {
+  Asking asking = step.asking;
+  asking.found_free_at = state->version();
+  asking.is_in_question = false;
+  state.jobs().set(step, asking);
+}
+
+// Counts, for the first job of each arm, the admitted jobs that overtake it after it has waited for
+// `aging_s`.
+void note_overtaken(Transitions& state, const std::vector<StepId>& admitted) {
+  std::set<StepId> told;  // a step of several arms is the first of several queues
+  for (const Step& step : state->jobs.heads()) {
+    const bool waits_long = step.in<Queued>() != nullptr && state->has_aged(step);
+    if (!waits_long || !told.insert(step.id).second) continue;
+    const auto overtaking = std::ranges::count_if(admitted, [&](StepId id) {
+      const Step& other = state->jobs.at(id);
+      return id != step.id && !other.job->system_job && step.job->turn < other.job->turn;
+    });
+    if (overtaking == 0) continue;
+    const std::size_t before = step.starvation ? step.starvation->overtaken_by : 0;
+    state.jobs().set(step,
+                     Starvation{step.ages_from->at, before + static_cast<std::size_t>(overtaking)});
+  }
+}
+
+// Admits the steps with these orders. `candidates`: the motion of each step, in the same order.
+void admit(Transitions& state, const std::vector<StepId>& steps,
+           std::vector<CoordinatedMotion> candidates, const PassingOrders& orders) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Trajectory& trajectory = *state->jobs.at(steps[i]).trajectory;
+    candidates[i].horizon = from_seconds(stopping_reach_s(*state->cell, trajectory)) +
+                            state->cell->monitor.reaction +
+                            promises_of(*state->cell, trajectory.arms()).free_run();
+  }
+  state.admit(steps, candidates, orders);
+  for (StepId id : steps) note_free(state, state->jobs.at(id));
+  note_overtaken(state, steps);
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
@@ -150,9 +190,8 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
       const Step& step = state->jobs.at(question.steps.front());
-      Approaches approaches = step.approaches;
-      approaches.feasibility = Approaches::Feasibility::given;
-      state.jobs().set(step, std::move(approaches));
+      using Feasibility = Approaches::Feasibility;
+      state.jobs().set(step, with(step.approaches, &Approaches::feasibility, Feasibility::given));
       if (input.verdict.kind == Verdict::Kind::conflict) {
         (void)fails_by_itself(state, step, input.verdict);
       }

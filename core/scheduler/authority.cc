@@ -82,9 +82,7 @@ TimePoint overrun_after(const State& state, const Step& step) {
 }
 
 void dispatch_ready(Transitions& state) {
-  const std::vector<JobId> ids = state->jobs.past_queue();
-  for (JobId id : ids) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     go_on(state, step);
     if (step.pausing()) explain_pause(state, step);
   }

@@ -66,9 +66,7 @@ std::optional<TimePoint> expiry_of(const State& state, const Step& step) {
 }
 
 void expire_and_overrun(Transitions& state) {
-  const std::vector<JobId> ids = state->jobs.past_queue();
-  for (JobId id : ids) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     if (step.state() == JobState::backlogged) {
       const auto expiry = expiry_of(state, step);
       if (!expiry || state->now < *expiry || goes_on_after_timeout(state, step)) continue;
@@ -92,8 +90,7 @@ void expire_and_overrun(Transitions& state) {
 
 std::optional<TimePoint> next_deadline(Transitions& state) {
   std::optional<TimePoint> next;
-  for (JobId id : state->jobs.past_queue()) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     see_whether_in_vain(state, step);
     const auto deadline = deadline_of(state, step);
     if (deadline) next = next ? std::min(*next, *deadline) : deadline;

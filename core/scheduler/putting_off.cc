@@ -61,15 +61,11 @@ bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdic
 }
 
 void note_found(Transitions& state, const Step& step, std::vector<Wait> waits) {
-  Judgement found = step.judgement();
-  found.found = std::move(waits);
-  state.jobs().set(step, std::move(found));
+  state.jobs().set(step, with(step.judgement(), &Judgement::found, std::move(waits)));
 }
 
 void put_off(Transitions& state, const Step& step, std::vector<Wait> waits) {
-  Asking asking = step.asking;
-  asking.effort = 1;
-  state.jobs().set(step, asking);
+  state.jobs().set(step, with(step.asking, &Asking::effort, 1));
   if (gives_detour_up(state, step)) return;
   for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(step, wait);
   state.jobs().set_waits(step, waits);

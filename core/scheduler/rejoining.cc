@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
-#include <utility>
 
 #include "core/scheduler/ways/replanning.h"
 

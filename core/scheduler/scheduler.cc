@@ -1,27 +1,22 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "core/jobs/invariants.h"
-#include "core/jobs/pace.h"
 #include "core/jobs/standing.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
-#include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
-#include "core/scheduler/without_orders.h"
-#include "core/scheduler/yielding/errands.h"
 #include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/set_joints.h"
 
@@ -43,7 +38,17 @@ void note_moved(Transitions& state, const Step& step) {
 
 // ---- Inputs that concern the shared state alone ----
 
-void take(Transitions& state, const Amend& input) { amend(state, input); }
+void take(Transitions& state, const Amend& input) {
+  const Step* step = state->jobs.find(input.job);
+  if (step == nullptr || step->has_ended()) return;
+  const int before = step->job->terms.priority;
+  state.amend(*step, input.terms);
+  const int priority = step->job->terms.priority;
+  if (priority == before) return;
+  for (const Step& other : state->jobs.of(state->jobs.active())) {
+    if (other.job->errand.on_behalf_of == step->id.job) state.amend(other, {.priority = priority});
+  }
+}
 
 void take(Transitions& state, const Stop& input) {
   state.stop_arms(input);
@@ -51,18 +56,18 @@ void take(Transitions& state, const Stop& input) {
 }
 
 void take(Transitions& state, const Resume& input) {
-  for (ArmId arm : input.arms) state.resume(arm);
+  for (ArmId arm : input.arms) state.arms().resume(arm);
   for (ArmId arm : input.arms) rejoin(state, arm);
   explain_again(state, input.arms);
 }
 
 void take(Transitions& state, const Unlocated& input) {
-  state.set_unlocated(input);
+  state.arms().set_unlocated(input.arm, input.may_meet);
   explain_again(state, input.may_meet);
 }
 
 void take(Transitions& state, const Located& input) {
-  explain_again(state, state.set_located(input.arm));
+  explain_again(state, state.arms().set_located(input.arm));
   const auto& queue = state->jobs.queues()[input.arm];
   const Step* head = queue.empty() ? nullptr : &state->jobs.at(queue.front());
   if (head != nullptr && head->has_authority()) return;
@@ -73,18 +78,14 @@ void take(Transitions& state, const Located& input) {
 void take(Transitions& state, const StartRecorded& input) {
   const Step* step = state->jobs.find(input.step);
   if (step == nullptr) return;
-  Job job = *step->job;
-  job.awaits_record = false;
-  state.jobs().set(*step, std::move(job));
+  state.jobs().set(*step, with(*step->job, &Job::awaits_record, false));
   renew_clocks(state, *step, true);
 }
 void take(Transitions& state, const SetSpeed& input) { set_speed(state, input); }
 
 void take(Transitions& state, const SceneChanged& input) {
   state.change_scene();
-  const std::vector<JobId> ids = state->jobs.past_queue();
-  for (JobId id : ids) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
     if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs().put_in_question(step);
   }
@@ -111,7 +112,17 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
                      const std::vector<Motion>& under_way, TimePoint now)
     : Scheduler(std::move(cell), std::move(policy), std::move(rest)) {
   state_.begin(now);
-  put_under_way(state_, under_way);
+  for (const Motion& motion : under_way) {
+    state_.add({.job = motion.step.job, .trajectory = motion.trajectory});
+  }
+  renew_round(state_);
+  std::vector<CoordinatedMotion> admitted;
+  for (const Motion& motion : under_way) {
+    const Step& step = state_->jobs.at(motion.step);
+    state_.measure(step, {motion.step, MotionReport::Kind::progressed, motion.progress});
+    admitted.push_back(as_candidate(state_, step));
+  }
+  state_.put_under_way(under_way, admitted);
 }
 
 void Scheduler::on(const Submit& input) {
@@ -146,23 +157,24 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   return state_.take_effects();
 }
 
+// The order of the rules after every input, with the reason for each place.
 void Scheduler::settle() {
-  expire_and_overrun(state_);
-  see_standing(state_);
-  pass_errands_on(state_);
-  cycles_.settle(state_);
-  plan_other_ways(state_);
-  weigh_again(state_);
+  expire_and_overrun(state_);  // first, so that no other rule works for a job that ends now
+  see_standing(state_);        // before authority is given, so that no motion passes unchecked
+  pass_errands_on(state_);     // before cycles are settled, so that no needless job is in one
+  cycles_.settle(state_);   // published in an earlier step; may brake jobs or give them new paths
+  plan_other_ways(state_);  // of jobs that the rules above have brought to rest
+  weigh_again(state_);      // before authority is given, which fixes orders
   dispatch_ready(state_);
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
     do {
       fail_impossible_starts(state_);
-    } while (plan_goals(state_));
-    state_.lanes().renew(state_->jobs, state_->arms);
-    renew_round(state_);
+    } while (plan_goals(state_));  // a job that fails changes where later jobs begin
+    state_.lanes().renew(state_->jobs, state_->arms);  // of the jobs and paths that are left
+    renew_round(state_);                               // before waits, which name it
     const Turns turns = explain_waits(state_);
-    cycles_.name(state_);
+    cycles_.name(state_);  // of these waits
     put_off = admission_.ask_next(state_, turns, cycles_);
   }
   look_ahead();
@@ -236,6 +248,43 @@ void Scheduler::on(const MotionReport& input) {
 }
 
 // ---- What others read ----
+
+// The last job of an arm says where it ends.
+Configuration Scheduler::predicted_rest() const {
+  Configuration q = rest();
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
+    if (queue.empty()) continue;
+    const Step& last = state_->jobs.at(queue.back());
+    const Braking* braking = last.ends_by_braking();
+    if (braking == nullptr || !braking->rests_at) {
+      follow_to_end(q, *state_->cell, ArmId{arm}, *last.trajectory);
+      continue;
+    }
+    Eigen::VectorXd stop;
+    last.trajectory->sample_positions(*braking->rests_at, stop);
+    set_joints_of(q, *state_->cell, ArmId{arm}, *last.trajectory, stop);
+  }
+  return q;
+}
+
+std::vector<ArmId> Scheduler::open_ends() const {
+  std::vector<ArmId> open;
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
+    if (queue.empty()) continue;
+    const Step& last = state_->jobs.at(queue.back());
+    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
+    const Braking* braking = last.ends_by_braking();
+    const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
+    if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
+  }
+  for (const Step& step : state_->jobs.of(state_->jobs.undecided())) {
+    if (!step.goal) continue;
+    for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
+  }
+  return open;
+}
 
 const Step* Scheduler::find(JobId job) const { return state_->jobs.find(job); }
 

@@ -9,7 +9,6 @@
 #include "core/jobs/transitions.h"
 #include "core/policies/policy.h"
 #include "core/scheduler/admission.h"
-#include "core/scheduler/amending.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/ways/goals.h"
 #include "core/scheduler/ways/path_requests.h"
@@ -37,7 +36,8 @@ class Scheduler {
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             JobId first = JobId{1});
   // Creates a scheduler for questions about further jobs (Trial): at `now`, the motions `under_way`
-  // are at their progress, without orders between them. Preconditions: at most one motion per arm;
+  // are at their progress, without orders between them. Under policies with rounds they form one
+  // round. Preconditions: at most one motion per arm;
   // their ids grow. `rest`: where these motions started.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             const std::vector<Motion>& under_way, TimePoint now);

@@ -8,7 +8,6 @@
 #include "core/jobs/timeline.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/weighing.h"
-#include "core/scheduler/without_orders.h"
 
 namespace armloom {
 namespace {
@@ -38,9 +37,7 @@ void set_speed(Transitions& state, const SetSpeed& input) {
   if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
   const SpeedOverride before = state->speed;
   state.set_speed(input);
-  const std::vector<JobId> ids = state->jobs.past_queue();
-  for (JobId id : ids) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     const auto& arms = step.trajectory->arms();
     if (before.effective(arms) == state->speed.effective(arms)) continue;
     renew_clocks(state, step, before.effective(arms) == 0.0);
@@ -58,8 +55,7 @@ void explain_again(Transitions& state, const std::vector<ArmId>& arms) {
   for (const ArmId arm : arms) {
     steps.insert(state->jobs.queues()[arm].begin(), state->jobs.queues()[arm].end());
   }
-  for (const StepId id : steps) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.of(steps)) {
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
     };

@@ -1,10 +1,11 @@
 #include "core/scheduler/weighing.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "core/jobs/pace.h"
+#include "core/jobs/standing.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -12,6 +13,10 @@ namespace {
 constexpr Duration kEvery = std::chrono::milliseconds(250);
 // Who has stood for so long is not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
+
+bool has_no_orders(const State& state) {
+  return std::holds_alternative<TimedDiscrete>(state.policy->method);
+}
 
 }  // namespace
 
@@ -73,6 +78,44 @@ std::optional<TimePoint> weighs_next(const State& state) {
     Duration looks = kEvery;
     while (looks <= stood) looks *= 2;
     next = next ? std::min(*next, *since + looks) : *since + looks;
+  }
+  return next;
+}
+
+void compare_again(Transitions& state) {
+  if (!has_no_orders(state)) return;
+  for (const Step& step : state->jobs.past_queue()) {
+    state.jobs().put_in_question(step);
+    const bool is_kept =
+        step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
+    if (is_kept) state.withdraw(step, {});
+  }
+}
+
+void see_standing(Transitions& state) {
+  if (!has_no_orders(state)) return;
+  bool is_news = false;
+  for (const Step& step : state->jobs.past_queue()) {
+    const auto* moving = step.in<Moving>();
+    if (moving == nullptr || moving->was_compared || !is_standing(*state->cell, step, state->now)) {
+      continue;
+    }
+    Moving next = *moving;
+    next.was_compared = is_news = true;
+    state.jobs().set(step, next);
+  }
+  if (is_news) compare_again(state);
+}
+
+std::optional<TimePoint> stands_next(const State& state) {
+  if (!has_no_orders(state)) return std::nullopt;
+  std::optional<TimePoint> next;
+  for (const Step& step : state.jobs.past_queue()) {
+    const auto* moving = step.in<Moving>();
+    if (moving == nullptr || moving->was_compared) continue;
+    const TimePoint stands =
+        moving->moved_at + promises_of(*state.cell, step.trajectory->arms()).stands_from();
+    next = next ? std::min(*next, stands) : stands;
   }
   return next;
 }

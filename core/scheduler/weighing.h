@@ -28,4 +28,14 @@ void weigh_again(Transitions& state);
 // overtaken any more.
 void prepare_choice(Transitions& state, const std::vector<StepId>& steps);
 
+// For policies without passing orders (timed_discrete).
+
+// Call when an arm brakes, or rests off its goal. All motions under way will be checked again.
+// Scheduled jobs whose arms are stopped return to the queue.
+void compare_again(Transitions& state);
+// Does the same if an arm under way has newly come to rest (late, stalled).
+void see_standing(Transitions& state);
+// Returns when see_standing() must be called next.
+[[nodiscard]] std::optional<TimePoint> stands_next(const State& state);
+
 }  // namespace armloom

@@ -47,10 +47,10 @@ void renew_round(Transitions& state) {
   const auto blocks_place = [](const Gate& gate) { return gate.blocks >= Blocks::place; };
   std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
   for (const auto& queue : book.queues()) {
-    for (const StepId step : queue) {
-      const auto& before = book.at(step).job->errand.before;
+    for (const Step& step : book.of(queue)) {
+      const auto& before = step.job->errand.before;
       if (!before) break;
-      if (round.jobs.contains(*before)) round.jobs.insert(step.job);
+      if (round.jobs.contains(*before)) round.jobs.insert(step.id.job);
     }
   }
   if (round.jobs.empty()) round.has_begun = false;
@@ -59,9 +59,7 @@ void renew_round(Transitions& state) {
   const bool stuck =
       std::ranges::all_of(round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
   if (round.has_begun && !stuck) return;
-  for (const auto& queue : book.queues()) {
-    if (queue.empty()) continue;
-    const Step& step = book.at(queue.front());
+  for (const Step& step : book.heads()) {
     const bool goes =
         step.is_waiting() && !step.is_unplanned() && !any_closed(state, step, blocks_place);
     if (goes) round.jobs.insert(step.id.job);

@@ -17,15 +17,10 @@ double arrival_of(const State& state, const Step& step, const Prediction& predic
   const auto& motions = state.graph.motions();
   if (prediction.ends.size() > motions.size()) return to_seconds(prediction.ends.back());
   const ArmId arm = step.goal->way().goal.arm;
-  Duration then{};
-  for (std::size_t m = 0; m < motions.size(); ++m) {
-    const auto arms = state.jobs.at(motions[m].step).trajectory->arms();
-    if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
-  }
-  for (StepId id : state.jobs.queues()[arm]) {
-    const Step& before = state.jobs.at(id);
+  Duration then = free_at(state, arm, prediction);
+  for (const Step& before : state.jobs.of(state.jobs.queues()[arm])) {
     if (before.is_waiting()) then += state.time_for(*before.trajectory);
-    if (id == step.id) break;
+    if (before.id == step.id) break;
   }
   return to_seconds(then);
 }
@@ -105,6 +100,16 @@ std::vector<Choice::Without> without(const State& state, const Step& step,
 }
 
 }  // namespace
+
+Duration free_at(const State& state, ArmId arm, const Prediction& prediction) {
+  const auto& motions = state.graph.motions();
+  Duration ends{};
+  for (std::size_t m = 0; m < std::min(motions.size(), prediction.ends.size()); ++m) {
+    const auto& arms = motions[m].arms;
+    if (std::ranges::find(arms, arm) != arms.end()) ends = std::max(ends, prediction.ends[m]);
+  }
+  return ends;
+}
 
 bool Choosing::begin(Transitions& state, JobId turn) {
   options_ = options_of(state, turn);

@@ -48,4 +48,7 @@ class Choosing {
   std::size_t at_ = 0;
 };
 
+// Returns when the last admitted motion of the arm ends, from now; zero if it has none.
+[[nodiscard]] Duration free_at(const State& state, ArmId arm, const Prediction& prediction);
+
 }  // namespace armloom

@@ -170,8 +170,7 @@ std::vector<JobId> first_undecided(const State& state) {
 }
 
 bool leaves_by_other_arm(Transitions& state, const WaitCycle& ring) {
-  for (JobId id : ring) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.of(ring)) {
     if (step.in<Queued>() == nullptr || step.alternatives.empty()) continue;
     if (!takes_arm_that_remains(state, step, "the job would wait forever in a deadlock cycle"))
       continue;

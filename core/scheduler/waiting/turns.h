@@ -10,8 +10,19 @@
 
 namespace armloom {
 
+struct Urgency {
+  JobId job;
+  int priority;
+};
+
+// Returns effective priorities (priority inheritance): for each of `jobs`, the largest of its own
+// priority and the priorities of all jobs that wait for it in `graph`, directly or through others.
+// Jobs of the graph that are not in `jobs` only pass priorities on. O(n log n).
+[[nodiscard]] std::map<JobId, int> effective_priorities(const WaitsFor& graph,
+                                                        std::vector<Urgency> jobs);
+
 // Decides whose turn it is: paused jobs first, then the larger effective priority
-// (priority_inheritance.h), then the earlier job. A job is aged when it has waited for
+// (effective_priorities()), then the earlier job. A job is aged when it has waited for
 // scheduling.aging since it was first in conflict or without a place. An aged job holds back other
 // jobs (README.md, Aging). It does not hold back jobs that must precede it or earlier jobs with a
 // larger priority. It holds back none while it waits for an arm that no job moves, for an object or

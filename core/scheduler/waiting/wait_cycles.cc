@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -23,9 +22,7 @@ JobId next_on(const WaitCycle& ring, std::size_t i) { return ring[(i + 1) % ring
 // Those whose waits may close a ring: every other job waits behind these.
 std::vector<JobId> first_jobs(const State& state) {
   std::vector<JobId> first = first_undecided(state);
-  for (const auto& queue : state.jobs.queues()) {
-    if (!queue.empty()) first.push_back(queue.front().job);
-  }
+  for (const Step& head : state.jobs.heads()) first.push_back(head.id.job);
   return first;
 }
 
@@ -39,12 +36,6 @@ bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
   });
 }
 
-void set_ring(Transitions& state, const Step& step, WaitCycle ring) {
-  Job job = *step.job;
-  job.ring = std::move(ring);
-  state.jobs().set(step, std::move(job));
-}
-
 void untell(Transitions& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     if (!state->jobs.is_active(id)) continue;
@@ -53,14 +44,13 @@ void untell(Transitions& state, const WaitCycle& ring) {
     const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
                              braking->after.reason == Reason::deadlock;
     if (ends_for_it) continue;  // it names the ring when it has come to rest
-    set_ring(state, step, {});
+    state.jobs().set(step, with(*step.job, &Job::ring, {}));
   }
 }
 
 // An arm that is aside for the sake of another one of the ring comes back first.
 bool comes_back(Transitions& state, const WaitCycle& ring) {
-  for (JobId id : ring) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.of(ring)) {
     if (!lets_another_pass(state->jobs, step) || !is_on(ring, *step.job->errand.lets_pass))
       continue;
     state.let_pass(step, std::nullopt);
@@ -120,7 +110,7 @@ void WaitCycles::name(Transitions& state) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Step& step = state->jobs.at(ring[i]);
       if (!is_found_in_the_way(state, step, next_on(ring, i))) named.in_turn.push_back(ring[i]);
-      set_ring(state, step, beginning_with(ring[i], ring));
+      state.jobs().set(step, with(*step.job, &Job::ring, beginning_with(ring[i], ring)));
     }
     named_.push_back(std::move(named));
   }
@@ -191,7 +181,7 @@ bool WaitCycles::resolve(Transitions& state, const WaitCycle& ring) {
   const auto id = gives_way(state, ring);
   if (!id) return false;
   const Step& last = state->jobs.at(approached_job(state, *id).value_or(*id));
-  set_ring(state, last, state->jobs.at(*id).job->ring);
+  state.jobs().set(last, with(*last.job, &Job::ring, state->jobs.at(*id).job->ring));
   keep_those_behind(state, last);
   for (ArmId arm : last.trajectory->arms()) {
     if (last.job->system_job) break;

@@ -39,15 +39,13 @@ bool goes_to_start(Transitions& state, const Step& head) {
   if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
-  Approaches approaches = head.approaches;
-  const bool is_asked = approaches.feasibility == Approaches::Feasibility::unknown;
-  if (is_asked) {
-    approaches.feasibility = Approaches::Feasibility::in_question;
-  } else {
-    ++approaches.tries;
+  using Feasibility = Approaches::Feasibility;
+  if (head.approaches.feasibility == Feasibility::unknown) {
+    state.jobs().set(head,
+                     with(head.approaches, &Approaches::feasibility, Feasibility::in_question));
+    return true;
   }
-  state.jobs().set(head, std::move(approaches));
-  if (is_asked) return true;
+  state.jobs().set(head, with(head.approaches, &Approaches::tries, head.approaches.tries + 1));
   const std::vector<ArmId> arms = head.trajectory->arms();
   bool goes = false;
   for (ArmId arm : arms) {
@@ -60,9 +58,7 @@ bool goes_to_start(Transitions& state, const Step& head) {
 }  // namespace
 
 std::optional<JobId> next_in_question(const State& state) {
-  for (const auto& queue : state.jobs.queues()) {
-    if (queue.empty()) continue;
-    const Step& head = state.jobs.at(queue.front());
+  for (const Step& head : state.jobs.heads()) {
     if (head.approaches.are_in_question() && is_at_head(state, head)) return head.id.job;
   }
   return std::nullopt;
@@ -72,8 +68,7 @@ std::vector<JobId> approaches_of(const State& state, const Step& step) {
   std::vector<JobId> approaches;
   if (step.approaches.tries == 0) return approaches;
   for (ArmId arm : step.trajectory->arms()) {
-    for (StepId id : state.jobs.queues()[arm]) {
-      const Step& own = state.jobs.at(id);
+    for (const Step& own : state.jobs.of(state.jobs.queues()[arm])) {
       if (own.job->errand.before == step.id.job && own.job->system_job && own.goal)
         approaches.push_back(own.id.job);
     }
@@ -93,9 +88,8 @@ void keep_those_behind(Transitions& state, const Step& step) {
   for (ArmId arm : step.trajectory->arms()) {
     const auto next = state->jobs.queues().behind(step, arm);
     if (!next) continue;
-    Approaches approaches = state->jobs.at(*next).approaches;
-    approaches.after_deadlock = true;
-    state.jobs().set(state->jobs.at(*next), std::move(approaches));
+    const Step& behind = state->jobs.at(*next);
+    state.jobs().set(behind, with(behind.approaches, &Approaches::after_deadlock, true));
   }
   state.lanes().renew_later();
 }

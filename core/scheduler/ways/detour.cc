@@ -28,15 +28,8 @@ TimePoint arrival(const State& state, const PassingOrders& orders) {
 
 // If nobody met it on its way.
 TimePoint soonest(const State& state, const Step& step, const PassingOrders& orders) {
-  const auto& motions = state.graph.motions();
-  const ArmId arm = step.goal->way().goal.arm;
-  Duration ready{};
-  for (std::size_t m = 0; m < std::min(motions.size(), orders.prediction.ends.size()); ++m) {
-    const auto& arms = motions[m].arms;
-    if (std::ranges::find(arms, arm) != arms.end())
-      ready = std::max(ready, orders.prediction.ends[m]);
-  }
-  return state.now + ready + state.time_for(*step.trajectory);
+  return state.now + free_at(state, step.goal->way().goal.arm, orders.prediction) +
+         state.time_for(*step.trajectory);
 }
 
 // From when to when of its own time the other motion is in the way there.

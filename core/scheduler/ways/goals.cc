@@ -30,8 +30,7 @@ bool comes_to_its_end(const Step& step) { return step.in<Queued>() == nullptr; }
 
 // Where the arm comes to rest by what is admitted.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
-  for (StepId id : state.jobs.queues()[arm]) {
-    const Step& step = state.jobs.at(id);
+  for (const Step& step : state.jobs.of(state.jobs.queues()[arm])) {
     if (comes_to_its_end(step)) follow_to_end(at, *state.cell, arm, *step.trajectory);
   }
 }
@@ -52,9 +51,8 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
   const auto& queue = state.jobs.queues()[arm];
   const bool is_taken = step.goal->way().goal.arm == arm;
   std::size_t before = is_taken ? queue.size() : place_on(state, step, arm);
-  for (StepId id : queue) {
-    if (before-- == 0 || id == step.id) break;
-    const Step& other = state.jobs.at(id);
+  for (const Step& other : state.jobs.of(queue)) {
+    if (before-- == 0 || other.id == step.id) break;
     if (other.has_open_arm()) continue;
     if (other.is_unplanned()) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -78,8 +76,7 @@ PlanQuestion question_about(const State& state, const Step& step, const GoalWay&
     const bool was_passed_there =
         way.request.beside.size() != 0 && is_as_asked(state, way, at, arm);
     if (was_passed_there || is_found_in_the_way(state, step, arm)) continue;
-    for (StepId id : state.jobs.queues()[arm]) {
-      const Step& other = state.jobs.at(id);
+    for (const Step& other : state.jobs.of(state.jobs.queues()[arm])) {
       const bool goes_before = other.job->turn < turn && !comes_to_its_end(other) &&
                                other.knows_its_end() && !other.has_open_arm();
       if (goes_before) follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -187,8 +184,7 @@ Answered answer_of(Transitions& state, const Step& step) {
 bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
-  for (JobId id : state.jobs.undecided()) {
-    const Step& other = state.jobs.at(id);
+  for (const Step& other : state.jobs.of(state.jobs.undecided())) {
     const bool is_put_off = other.state() == JobState::backlogged;
     if (other.has_open_arm() && !is_put_off && other.job->turn < step.job->turn) ++before;
   }

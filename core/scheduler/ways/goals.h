@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "core/jobs/transitions.h"
 
 namespace armloom {

@@ -4,8 +4,8 @@
 
 #include "core/scheduler/ways/detour.h"
 #include "core/scheduler/ways/goals.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
+#include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
 

@@ -10,7 +10,7 @@ namespace armloom {
 [[nodiscard]] PathRequest send(Transitions& state, const Step& step, PathRequest request,
                                PlanQuestion question);
 // Passes the answer on to the purpose whose question is open: a goal (goals.h), a detour, a replan
-// (replanning.h) or a retreat (planned_aside.h).
+// (replanning.h) or a retreat (yielding/yield_moves.h).
 void take_plan(Transitions& state, const PlanMade& answer, WaitCycles& cycles);
 
 }  // namespace armloom

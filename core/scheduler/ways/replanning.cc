@@ -164,8 +164,7 @@ bool may_go_around(const State& state, const Step& step) {
 }
 
 bool goes_around_idle_arm(Transitions& state) {
-  for (JobId id : state->jobs.past_queue()) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     const std::vector<Wait>* waits = known_waits(state, step);
     if (waits == nullptr || step.is_replanned_now()) continue;
     const bool for_idle_arm =

@@ -18,4 +18,9 @@ void send_aside(Transitions& state, const YieldTrial& move);
 // client. `rest`: where the earlier jobs leave all joints.
 void bring_back(Transitions& state, const Submit& job, Configuration rest);
 
+// Handles the server's own waiting jobs (retreats, returns, moves-to-start) whose client job has
+// ended. If the next client job of the arm relies on such a job, it now helps that job. Otherwise
+// it is canceled, so that no job waits for it.
+void pass_errands_on(Transitions& state);
+
 }  // namespace armloom

@@ -8,6 +8,7 @@
 #include "core/model/cell.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/ways/approach.h"
+#include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/joints_elsewhere.h"
 #include "core/trajectory/set_joints.h"
@@ -136,8 +137,7 @@ const YieldsTried& tried_for(const Step& step, ArmId arm) {
 
 std::optional<YieldTrial> next_yield(Transitions& state) {
   if (state->cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
-  for (JobId id : state->jobs.past_queue()) {
-    const Step& step = state->jobs.at(id);
+  for (const Step& step : state->jobs.past_queue()) {
     const std::vector<Wait>* waits = known_waits(state, step);
     if (waits == nullptr || step.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : *waits) {
@@ -227,6 +227,28 @@ void note_tried(Transitions& state, const YieldTrial& move, bool goes) {
   ++of_all.total;
   if (goes) of_all.went_to.push_back(move.way->goal());
   state.jobs().set(*helped, move.arm, std::move(of_all));
+}
+
+void ask_for_way_aside(Transitions& state, const YieldTrial& move) {
+  const Step& step = state->jobs.at(move.blocked_job);
+  YieldsTried tried = tried_for(step, move.arm);
+  if (tried.planned.request.question) return;
+  tried.from = state->arms.came_by(move.arm);
+  tried.next = move.index;
+  tried.planned = {};
+  tried.planned.request =
+      send(state, step, {},
+           {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
+            .at = rest_after_admitted(state),
+            .seed = step.id.job.value()});
+  state.jobs().set(step, move.arm, std::move(tried));
+}
+
+void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer) {
+  YieldsTried tried = tried_for(step, arm);
+  const bool is_there_still = tried.from == state->arms.came_by(arm);
+  tried.planned = {.is_answered = is_there_still, .way = answer.trajectory};
+  state.jobs().set(step, arm, std::move(tried));
 }
 
 bool is_counted_on(const State& state, const Step& own) {

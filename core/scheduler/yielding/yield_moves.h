@@ -13,7 +13,7 @@ namespace armloom {
 struct YieldTrial {
   JobId blocked_job;
   ArmId arm;
-  TrajectoryPtr way;                 // null if it must be planned first (planned_aside.h)
+  TrajectoryPtr way;                 // null if it must be planned first (ask_for_way_aside)
   std::optional<JobId> before = {};  // in a deadlock cycle: the arm's job that it precedes
   bool is_free = false;              // `way` is known to be free
   std::size_t index = 0;             // into the candidates from the arm's present rest
@@ -41,6 +41,16 @@ struct YieldTrial {
 [[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
 // Records that the retreat was tried, and if `goes` that it is made.
 void note_tried(Transitions& state, const YieldTrial& move, bool goes);
+
+// Planned retreats, to any position that clears the blocked job's path. One is planned if no
+// retreat along a known path is possible and the cell's on_idle_blocker is
+// "replan". It is planned once for each place where the arm comes to rest, and then tried like any
+// other retreat.
+
+// Requests the plan (PlanMotion), unless a request is open. Precondition: the trial has no path.
+void ask_for_way_aside(Transitions& state, const YieldTrial& move);
+// Handles the planner's answer for a retreat of the arm.
+void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer);
 
 // Returns true if the arm's next client job relies on `own`, a job of the server: the job begins
 // where `own` brings the arm. False for a job with a goal, which begins anywhere.

@@ -1,4 +1,4 @@
-#include "core/jobs/state_writer.h"
+#include "core/jobs/state.h"
 
 #include <algorithm>
 #include <iterator>
@@ -35,10 +35,6 @@ void StateWriter::set_speed(const SetSpeed& input) {
   state_.speed.set(input.arm, input.share, state_.now);
   state_.expected.spoil();
   ++state_.changes_;
-}
-
-void StateWriter::set_unlocated(const Unlocated& input) {
-  state_.arms.set_unlocated(input.arm, input.may_meet);
 }
 
 void StateWriter::locate(const Located& input) {
