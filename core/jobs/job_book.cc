@@ -11,10 +11,8 @@ namespace {
 
 // The table in step.h. What only gets other data stays in its phase.
 bool leads_to(const StepPhase& from, const StepPhase& to) {
-  struct Allowed {
-    bool queued, admitted, moving, braking, held, ended;
-  };
-  static constexpr Allowed kTable[] = {
+  static constexpr bool kTable[][6] = {
+      // to: Queued, Admitted, Moving, Braking, Held, Ended
       {true, true, false, false, false, true},     // Queued
       {true, true, true, false, true, true},       // Admitted
       {false, true, true, true, true, true},       // Moving
@@ -22,9 +20,7 @@ bool leads_to(const StepPhase& from, const StepPhase& to) {
       {true, true, false, false, true, true},      // Held
       {false, false, false, false, false, false},  // Ended
   };
-  const Allowed& row = kTable[from.index()];
-  const bool allowed[] = {row.queued, row.admitted, row.moving, row.braking, row.held, row.ended};
-  return allowed[to.index()];
+  return kTable[from.index()][to.index()];
 }
 
 }  // namespace

@@ -67,21 +67,12 @@ std::optional<TimePoint> expiry_of(const State& state, const Step& step) {
 
 void expire_and_overrun(Transitions& state) {
   for (const Step& step : state->jobs.past_queue()) {
-    if (step.state() == JobState::backlogged) {
-      const auto expiry = expiry_of(state, step);
-      if (!expiry || state->now < *expiry || goes_on_after_timeout(state, step)) continue;
-      state.end(step, JobState::expired, Reason::backlog_timeout,
-                "waited " + seconds_text(*step.job->terms.backlog_timeout) + " in the backlog");
-      continue;
-    }
     see_whether_in_vain(state, step);
     const auto expiry = expiry_of(state, step);
-    const bool in_vain = expiry && state->now >= *expiry;
-    if (in_vain && goes_on_after_timeout(state, step)) continue;
-    if (in_vain) {
-      state.give_up(step,
-                    {AfterStop::Then::fail, Reason::backlog_timeout,
-                     "waited " + seconds_text(*step.job->terms.backlog_timeout) + " on its path"});
+    const bool is_over = expiry && state->now >= *expiry;
+    if (is_over && goes_on_after_timeout(state, step)) continue;
+    if (is_over) {
+      expire(state, step);
     } else if (overruns(state, step)) {
       fail_overdue(state, step);
     }

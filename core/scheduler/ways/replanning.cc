@@ -78,13 +78,6 @@ void ask_at_rest(Transitions& state, const Step& step) {
   state.jobs().set(step, std::move(other));
 }
 
-void expire(Transitions& state, const Step& step, const std::string& why) {
-  const char* where = step.has_started() ? " on its path" : " in the backlog";
-  state.give_up(step, {AfterStop::Then::fail, Reason::backlog_timeout,
-                       "waited " + seconds_text(*step.job->terms.backlog_timeout) + where +
-                           "; no other path: " + why});
-}
-
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Step& step) {
@@ -146,7 +139,7 @@ bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer
       state.jobs().set(step, std::optional<Detour>());
     }
   } else if (other.cause == AnotherWay::Cause::timeout) {
-    expire(state, step, *other.refusal);
+    expire(state, step, "; no other path: " + *other.refusal);
   }
   return is_taken;
 }
@@ -184,6 +177,12 @@ bool goes_on_after_timeout(Transitions& state, const Step& step) {
   if (step.another_way && step.another_way->request.tries >= kReplansMax) return false;
   ask_for_another_way(state, step, AnotherWay::Cause::timeout);
   return true;
+}
+
+void expire(Transitions& state, const Step& step, const std::string& why) {
+  const char* where = step.has_started() ? " on its path" : " in the backlog";
+  state.give_up(step, {AfterStop::Then::fail, Reason::backlog_timeout,
+                       "waited " + seconds_text(*step.job->terms.backlog_timeout) + where + why});
 }
 
 }  // namespace armloom

@@ -36,5 +36,7 @@ void plan_other_ways(Transitions& state);
 // Call when the job's backlog timeout is over, in the backlog or on its path. Returns true if the
 // job is replanned instead of expiring (OnTimeout::replan).
 [[nodiscard]] bool goes_on_after_timeout(Transitions& state, const Step& step);
+// Ends the job, at once or after braking, because its backlog timeout is over. `why`: appended.
+void expire(Transitions& state, const Step& step, const std::string& why = "");
 
 }  // namespace armloom
