@@ -103,9 +103,10 @@ std::size_t height_in_folder(const std::string& path) {
 }
 
 // The only files that may change a State, Step or Job, or raise a version of the scheduler.
-const std::set<std::string> kOwners = {"core/jobs/arm_rests.cc",  "core/jobs/job_book.cc",
-                                       "core/jobs/job_book.h",    "core/jobs/state.cc",
-                                       "core/jobs/step_facts.cc", "core/jobs/step_facts.h"};
+const std::set<std::string> kOwners = {"core/jobs/arm_rests.cc", "core/jobs/arm_rests.h",
+                                       "core/jobs/job_book.cc",  "core/jobs/job_book.h",
+                                       "core/jobs/state.cc",     "core/jobs/step_facts.cc",
+                                       "core/jobs/step_facts.h"};
 
 std::vector<std::string> foreign_writes_in(const std::string& path, const std::string& text) {
   const bool is_rule = path.starts_with("core/jobs/") || path.starts_with("core/scheduler/");
