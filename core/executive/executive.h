@@ -222,7 +222,7 @@ class Executive {
   // job could not be stored. The job is canceled, then forgotten, and its key can be used again.
   // Event subscribers still see the job created and canceled.
   void roll_back(const std::string& key);
-  // Changes the job's terms at once (scheduler/amending.h). Problems: those of cancel().
+  // Changes the job's terms at once (Amend). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Replans the job (scheduler/ways/replanning.h). A moving job is first brought to rest. Problems:
   // not_found; conflict if the job has ended or cannot be replanned.

@@ -7,6 +7,7 @@
 
 #include "core/base/rounding_noise.h"
 #include "core/base/whole_turns.h"
+#include "core/trajectory/joint_line.h"
 #include "core/trajectory/joints_elsewhere.h"
 #include "core/trajectory/set_joints.h"
 
@@ -34,12 +35,19 @@ void ArmRests::come_to_rest(const Cell& cell, const TrajectoryPtr& motion,
     places_at_[arm.index()] = places_.of(arm, joints_of(rest_, cell.arm(arm).joints));
     came_by_[arm.index()] = alone ? motion : nullptr;
   }
+  ++changes_;
 }
 
 void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position) {
   set_joints(rest_, joints_and_gripper(cell.arm(arm)), position);
   places_at_[arm.index()] = places_.of(arm, joints_of(rest_, cell.arm(arm).joints));
   came_by_[arm.index()] = nullptr;
+  ++changes_;
+}
+
+std::vector<ArmId> ArmRests::set_located(ArmId arm) {
+  if (is_unlocated(arm)) ++changes_;
+  return std::exchange(may_meet_[arm.index()], {});
 }
 
 std::optional<ArmId> ArmRests::unlocated_beside(ArmId arm) const {
@@ -56,6 +64,12 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
 void ArmRests::stop(ArmId arm, std::string cause, bool until_connected) {
   std::optional<StopOfArm>& stop = stopped_[arm.index()];
   if (!stop || stop->until_connected) stop = {std::move(cause), until_connected};
+  ++changes_;
+}
+
+void ArmRests::resume(ArmId arm) {
+  stopped_[arm.index()].reset();
+  ++changes_;
 }
 
 std::optional<Wait> ArmRests::stop_of(const Step& step) const {
@@ -95,6 +109,35 @@ std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
   const bool turns_round = joint.kind != JointKind::prismatic;
   return text + (turns_round ? whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad)
                              : std::string());
+}
+
+void WaysBack::retreat(ArmId arm, const Trajectory& way) { by_arm_.emplace(arm, retraced(way)); }
+
+std::vector<TrajectoryPtr> WaysBack::take(const Cell& cell, const Trajectory& motion,
+                                          Configuration& rest) {
+  std::vector<TrajectoryPtr> returns;
+  for (ArmId arm : motion.arms()) {
+    const auto back = by_arm_.find(arm);
+    if (back == by_arm_.end()) continue;
+    TrajectoryPtr& way = back->second;
+    if (!joints_elsewhere(cell, *way, rest).empty()) {  // it retreated again, or was stopped on it
+      const Eigen::VectorXd from = joints_of(rest, way->joints());
+      if (auto line = joint_line(cell, way->joints(), from, way->goal())) way = *line;
+    }
+    Configuration returned = rest, ends = rest;
+    set_joints(returned, *way, way->goal());
+    set_joints(ends, motion, motion.goal());
+    const auto& own = cell.arm(arm).joints;
+    const auto here = joints_elsewhere(cell, motion, rest);
+    if (joints_elsewhere(cell, motion, returned).size() < here.size()) {
+      rest = std::move(returned);
+      returns.push_back(std::move(way));
+    } else if (joints_elsewhere(cell, own, joints_of(ends, own), rest).empty()) {
+      continue;  // only its gripper moves
+    }
+    by_arm_.erase(back);
+  }
+  return returns;
 }
 
 }  // namespace armloom

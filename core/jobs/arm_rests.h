@@ -1,16 +1,31 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/jobs/step.h"
-#include "core/jobs/ways_back.h"
 #include "core/model/cell.h"
 #include "core/sequence/safe_sequence.h"
 
 namespace armloom {
+
+// Holds where clients left the arms that have retreated since, and the motions back. Clients
+// need not know about retreats. A copy is independent of the original.
+class WaysBack {
+ public:
+  // The arm has no client job, and retreats along `way`.
+  void retreat(ArmId arm, const Trajectory& way);
+  // A client submits this motion; the jobs before it leave all joints at `rest`. Returns motions
+  // that first bring its arms back, if more of its joints then stand where it begins, and sets
+  // `rest` to their ends. Forgets the ways back of arms that return or that the motion moves away.
+  std::vector<TrajectoryPtr> take(const Cell& cell, const Trajectory& motion, Configuration& rest);
+
+ private:
+  std::map<ArmId, TrajectoryPtr> by_arm_;
+};
 
 // Rest positions of the arms, and stopped arms.
 class ArmRests {
@@ -34,9 +49,10 @@ class ArmRests {
   // Stores that the arm may be anywhere until set_located(), and which other arms it could meet.
   void set_unlocated(ArmId arm, std::vector<ArmId> may_meet) {
     may_meet_[arm.index()] = std::move(may_meet);
+    ++changes_;
   }
   // Returns the arms that it could have met.
-  std::vector<ArmId> set_located(ArmId arm) { return std::exchange(may_meet_[arm.index()], {}); }
+  std::vector<ArmId> set_located(ArmId arm);
   [[nodiscard]] bool is_unlocated(ArmId arm) const { return !may_meet_[arm.index()].empty(); }
   // Returns an arm that may be anywhere and that this arm could meet; nullopt if there is none.
   [[nodiscard]] std::optional<ArmId> unlocated_beside(ArmId arm) const;
@@ -48,7 +64,7 @@ class ArmRests {
   [[nodiscard]] const WaysBack& ways_back() const { return ways_back_; }
   // Of several stops, the first one counts; a stop until the connection is replaced by any other.
   void stop(ArmId arm, std::string cause, bool until_connected = false);
-  void resume(ArmId arm) { stopped_[arm.index()].reset(); }
+  void resume(ArmId arm);
   [[nodiscard]] bool is_stopped(ArmId arm) const { return stop_of(arm).has_value(); }
   // A stop of an arm that has not ended.
   struct StopOfArm {
@@ -68,7 +84,11 @@ class ArmRests {
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
 
+  // Grows when a rest or a stop changes, and when an arm is located or no longer located.
+  [[nodiscard]] Version changes() const { return changes_; }
+
  private:
+  Version changes_ = 0;
   Configuration rest_;
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
   std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of unlocated arms

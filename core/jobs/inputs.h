@@ -52,7 +52,9 @@ struct StartRecorded {
 struct Cancel {
   JobId job;
 };
-// Changes the given terms of a job (amending.h).
+// Changes the given terms of a job. After a change of the priority, all waiting jobs are checked
+// again, and the policy may choose passing orders again. Jobs that the server has added for this
+// job get the same priority.
 struct Amend {
   JobId job;
   AmendedTerms terms;

@@ -1,7 +1,5 @@
 #include "core/jobs/invariants.h"
 
-#include <algorithm>
-
 namespace armloom {
 namespace {
 
@@ -63,9 +61,8 @@ std::optional<std::string> broken_invariant(const State& state) {
   for (const Precedence& order : state.graph.precedences()) {
     if (auto broken = of_order(state, order)) return broken;
   }
-  for (const auto& queue : state.jobs.queues()) {
-    if (queue.empty()) continue;
-    if (auto broken = of_job(state, state.jobs.at(queue.front()))) return broken;
+  for (const Step& head : state.jobs.heads()) {
+    if (auto broken = of_job(state, head)) return broken;
   }
   return std::nullopt;
 }

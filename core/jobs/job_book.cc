@@ -11,10 +11,8 @@ namespace {
 
 // The table in step.h. What only gets other data stays in its phase.
 bool leads_to(const StepPhase& from, const StepPhase& to) {
-  struct Allowed {
-    bool queued, admitted, moving, braking, held, ended;
-  };
-  static constexpr Allowed kTable[] = {
+  static constexpr bool kTable[][6] = {
+      // to: Queued, Admitted, Moving, Braking, Held, Ended
       {true, true, false, false, false, true},     // Queued
       {true, true, true, false, true, true},       // Admitted
       {false, true, true, true, true, true},       // Moving
@@ -22,9 +20,7 @@ bool leads_to(const StepPhase& from, const StepPhase& to) {
       {true, true, false, false, true, true},      // Held
       {false, false, false, false, false, false},  // Ended
   };
-  const Allowed& row = kTable[from.index()];
-  const bool allowed[] = {row.queued, row.admitted, row.moving, row.braking, row.held, row.ended};
-  return allowed[to.index()];
+  return kTable[from.index()][to.index()];
 }
 
 }  // namespace
@@ -35,7 +31,7 @@ void JobIds::take(JobId id) {
   last = id.value();
 }
 
-Step& JobBook::add(Step step) {
+const Step& JobBook::add(Step step) {
   const JobId id = step.id.job;
   ids_.take(id);
   const auto& before = step.job->errand.before;
@@ -44,25 +40,12 @@ Step& JobBook::add(Step step) {
   active_.insert(id);
   if (!step.alternatives.empty()) undecided_.insert(id);
   if (step.goal) ++goals_;
-  news_.unexplained.insert(id);
-  if (before) news_.unexplained.insert(*before);
+  unexplained_.insert(id);
+  if (before) unexplained_.insert(*before);
   ++priorities_[step.job->terms.priority];
   for (JobId first : step.job->after) followers_[first].push_back(id);
-  Step& added = steps_.emplace(step.id, std::move(step)).first->second;
-  changed(added);
-  return added;
-}
-
-void JobBook::forget(JobId job) { steps_.erase(only_step(job)); }
-
-Step* JobBook::find(StepId step) {
-  const auto it = steps_.find(step);
-  return it == steps_.end() ? nullptr : &it->second;
-}
-
-const Step* JobBook::find(StepId step) const {
-  const auto it = steps_.find(step);
-  return it == steps_.end() ? nullptr : &it->second;
+  changed_.insert(id);
+  return steps_.emplace(step.id, std::move(step)).first->second;
 }
 
 Job& JobBook::change(Step& step) {
@@ -80,77 +63,156 @@ void JobBook::put_in_order(const std::vector<JobId>& jobs) {
   queues_.put_in_order(at(jobs.front()), steps);
   std::ranges::sort(turns);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    change(at(jobs[i])).turn = turns[i];
+    change(steps_.at(steps[i])).turn = turns[i];
     explain_with_next(at(jobs[i]));
   }
 }
 
-void JobBook::take(Step& step, TrajectoryPtr trajectory, WaitingLeg leg, std::size_t place) {
-  explain_with_next(step);
-  queues_.erase(step);
-  step.trajectory = std::move(trajectory);
-  leg.motion = step.leg.motion + 1;
-  step.leg = std::move(leg);
-  queues_.insert_at(step, place);
-  explain_with_next(step);
+void JobBook::take(const Step& step, std::size_t which, WaitingLeg leg, std::size_t place) {
+  Step& own = edit(step);
+  explain_with_next(own);
+  queues_.erase(own);
+  own.trajectory = own.alternatives[which];
+  if (own.goal) own.goal->taken = which;
+  leg.motion = own.leg.motion + 1;
+  own.leg = std::move(leg);
+  queues_.insert_at(own, place);
+  explain_with_next(own);
 }
 
-void JobBook::set_motion(Step& step, TrajectoryPtr trajectory, WaitingLeg leg) {
-  queues_.remove_work(step);
-  step.trajectory = std::move(trajectory);
-  leg.motion = step.leg.motion + 1;
-  step.leg = std::move(leg);
-  step.asking.effort = 1;
-  step.asking.raised = 0;
-  if (auto* queued = std::get_if<Queued>(&step.phase)) queued->judgement = {};
-  queues_.add_work(step);
-  explain_with_next(step);
-  changed(step);
+void JobBook::set_motion(const Step& step, TrajectoryPtr trajectory, WaitingLeg leg) {
+  Step& own = edit(step);
+  queues_.remove_work(own);
+  own.trajectory = std::move(trajectory);
+  leg.motion = own.leg.motion + 1;
+  own.leg = std::move(leg);
+  if (!own.is_unplanned()) ++changes_;
+  own.asking.effort = 1;
+  own.asking.raised = 0;
+  if (auto* queued = std::get_if<Queued>(&own.phase)) queued->judgement = {};
+  queues_.add_work(own);
+  explain_with_next(own);
+  changed(own);
 }
 
-void JobBook::set_priority(Step& step, int priority) {
-  const int now = step.job->terms.priority;
-  if (--priorities_.at(now) == 0) priorities_.erase(now);
-  change(step).terms.priority = priority;
-  ++priorities_[priority];
-  changed(step);
-}
-
-void JobBook::set_alternative(Step& step, std::size_t which, TrajectoryPtr trajectory,
+void JobBook::set_alternative(const Step& step, std::size_t which, TrajectoryPtr trajectory,
                               WaitingLeg leg) {
   const bool is_taken = step.trajectory == step.alternatives[which];
   queues_.remove_work(step);
-  step.alternatives[which] = trajectory;
+  edit(step).alternatives[which] = trajectory;
   queues_.add_work(step);
   if (is_taken) set_motion(step, std::move(trajectory), std::move(leg));
 }
 
-void JobBook::decide_arm(Step& step) {
+void JobBook::decide_arm(const Step& step) {
   queues_.remove_work(step);
-  step.alternatives.clear();
+  edit(step).alternatives.clear();
   queues_.add_work(step);
   undecided_.erase(step.id.job);
+  ++changes_;
   changed(step);
+}
+
+bool JobBook::set_planned(const Step& step, bool is_planned) {
+  if (step.goal->is_planned == is_planned) return false;
+  edit(step).goal->is_planned = is_planned;
+  ++changes_;
+  return true;
+}
+
+void JobBook::amend(const Step& step, AmendedTerms terms) {
+  JobTerms& own = change(edit(step)).terms;
+  const int before = own.priority;
+  apply(terms, own);
+  changed(step);
+  if (own.priority == before) return;
+  if (--priorities_.at(before) == 0) priorities_.erase(before);
+  ++priorities_[own.priority];
+  ++changes_;
+}
+
+void JobBook::put_in_backlog(const Step& step, TimePoint now, TimePoint clock) {
+  const auto* queued = step.in<Queued>();
+  if (queued == nullptr || queued->in_backlog) return;
+  enter(step, Queued{.in_backlog = true, .judgement = queued->judgement});
+  if (step.times.backlogged_at) return;
+  edit(step).times.backlogged_at = now;
+  edit(step).times.backlog_clock = clock;
+}
+
+void JobBook::leave_backlog(const Step& step) {
+  const auto* queued = step.in<Queued>();
+  if (queued == nullptr || !queued->in_backlog) return;
+  enter(step, Queued{});
+  edit(step).times.backlogged_at.reset();
+}
+
+void JobBook::start(const Step& step, TimePoint now) {
+  Step& own = edit(step);
+  const JobState before = own.state();
+  own.note_start(now);
+  if (auto* moving = std::get_if<Moving>(&own.phase)) moving->is_under_way = true;
+  auto* braking = std::get_if<Braking>(&own.phase);
+  if (braking != nullptr && before == JobState::scheduled) braking->state = JobState::running;
+  if (own.state() != before) changed(own);
+}
+
+void JobBook::schedule(const Step& step, std::optional<TimePoint> at) {
+  if (step.in<Admitted>() != nullptr && step.times.scheduled_at != at) changed(step);
+  edit(step).times.scheduled_at = at;
+}
+
+void JobBook::measure(const Step& step, const MotionReport& report, TimePoint now) {
+  Step& own = edit(step);
+  own.progress = report.progress;
+  own.times.measured_at = now;
+  auto* braking = std::get_if<Braking>(&own.phase);
+  if (report.kind != MotionReport::Kind::progressed) {
+    own.farthest = report.farthest;
+  } else if (braking != nullptr) {
+    braking->rests_at = report.rests_at;
+  }
+}
+
+void JobBook::start_over(const Step& step) {
+  Step& own = edit(step);
+  own.times.backlogged_at.reset();
+  own.times.scheduled_at.reset();
+  own.times.motion_started_at.reset();
+  own.progress = Duration{};
+  own.farthest = Duration{};
 }
 
 // What comes next on its arms may have waited for it, or does now.
 void JobBook::explain_with_next(const Step& step) {
-  news_.unexplained.insert(step.id.job);
+  explain(step);
   for (ArmId arm : step.trajectory->arms()) {
-    if (const auto next = queues_.behind(step, arm)) news_.unexplained.insert(next->job);
+    if (const auto next = queues_.behind(step, arm)) unexplained_.insert(next->job);
   }
 }
 
-void JobBook::enter(Step& step, StepPhase phase) {
+void JobBook::enter(const Step& step, StepPhase phase) {
   const JobId id = step.id.job;
   if (!leads_to(step.phase, phase)) {
     throw std::logic_error("job " + std::to_string(id.value()) + ": no transition from phase " +
                            std::to_string(step.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }
+  Step& own = edit(step);
+  const bool is_dispatch = step.in<Admitted>() != nullptr && std::holds_alternative<Moving>(phase);
+  const bool is_other = step.phase.index() != phase.index() && !is_dispatch;
+  const bool was_queued = step.in<Queued>() != nullptr;
+  const JobState before = step.state();
   if (!step.alternatives.empty()) queues_.remove_work(step);
-  step.phase = std::move(phase);
+  own.phase = std::move(phase);
   if (!step.alternatives.empty()) queues_.add_work(step);
+  if (is_other) ++changes_;
+  if (is_other || step.in<Braking>() != nullptr || step.state() != before) changed(step);
+  if (was_queued && step.in<Admitted>() != nullptr) {
+    own.waits_on.clear();
+    own.starvation.reset();
+    own.asking.effort = 1;
+  }
   const bool is_decided = step.alternatives.empty() || step.in<Queued>() == nullptr;
   is_decided ? (void)undecided_.erase(id) : (void)undecided_.insert(id);
   const auto place = std::ranges::lower_bound(past_queue_, id);
@@ -161,38 +223,34 @@ void JobBook::enter(Step& step, StepPhase phase) {
   explain_with_next(step);
 }
 
-std::vector<JobId> JobBook::end(Step& step, Ended how) {
+std::vector<JobId> JobBook::end(const Step& step, Ended how) {
   enter(step, std::move(how));
+  Step& own = edit(step);
   const JobId id = step.id.job;
   const Ended& ended = *step.in<Ended>();
-  if (ended.reason != Reason::deadlock && !step.job->ring.empty()) change(step).ring.clear();
-  if (ended.state != JobState::expired) step.waits_on.clear();  // else: what it waited for in vain
-  if (ended.state == JobState::succeeded) step.progress = step.trajectory->duration();
+  if (ended.reason != Reason::deadlock && !step.job->ring.empty()) change(own).ring.clear();
+  if (ended.state != JobState::expired) own.waits_on.clear();  // else: what it waited for in vain
+  if (ended.state == JobState::succeeded) own.progress = own.trajectory->duration();
   queues_.erase(step);
   queues_.remove_work(step);
   active_.erase(id);
+  being_replanned_.erase(id);
   if (step.goal) --goals_;
-  news_.unexplained.erase(id);
+  unexplained_.erase(id);
   const int priority = step.job->terms.priority;
   if (--priorities_.at(priority) == 0) priorities_.erase(priority);
-  changed(step);
-  const auto node = followers_.extract(id);
-  return node.empty() ? std::vector<JobId>{} : node.mapped();
-}
-
-void JobBook::set_waits(Step& step, std::span<const Wait> waits) {
-  auto& old = step.waits_on;
-  if (std::ranges::equal(old, waits)) return;
-  const bool same =
-      std::ranges::equal(old, waits, [](const Wait& a, const Wait& b) { return a.same_cause(b); });
-  old.assign(waits.begin(), waits.end());
-  if (!same) changed(step);
+  auto node = followers_.extract(id);
+  if (node.empty()) return {};
+  std::erase_if(node.mapped(), [&](JobId follower) {
+    const bool waits = is_active(follower) && std::ranges::count(at(follower).job->after, id) > 0;
+    return !waits || std::erase(change(steps_.at(only_step(follower))).after, id) == 0;
+  });
+  return std::move(node.mapped());
 }
 
 std::vector<const Step*> occupying(const JobBook& book) {
   std::vector<const Step*> steps;
-  for (JobId id : book.past_queue()) {
-    const Step& step = book.at(id);
+  for (const Step& step : book.past_queue()) {
     if (step.in<Held>() != nullptr || step.has_authority()) steps.push_back(&step);
   }
   return steps;

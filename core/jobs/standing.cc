@@ -3,8 +3,18 @@
 #include <algorithm>
 
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 
 namespace armloom {
+namespace {
+
+constexpr double kHardlySlow = 1.1;
+
+Promises promises_for(const Cell& cell, const Step& step) {
+  return promises_of(cell, step.trajectory->arms());
+}
+
+}  // namespace
 
 std::optional<Wait> speed_wait(const State& state, const Step& step) {
   const auto wait = [](std::optional<ArmId> arm, const std::string& whose) {
@@ -56,14 +66,15 @@ std::optional<JobId> may_go_first(const State& state, const Step& step) {
   if (step.goal || step.in<Queued>() == nullptr) return std::nullopt;
   if (state.jobs.undecided().empty()) return std::nullopt;
   const auto& arms = step.trajectory->arms();
-  for (JobId id : state.jobs.undecided()) {
-    const Step& open = state.jobs.at(id);
+  for (const Step& open : state.jobs.of(state.jobs.undecided())) {
     if (!open.has_open_arm() || open.job->turn > step.job->turn) continue;
-    if (step.approaches.ahead_of.contains(id)) continue;
+    if (step.approaches.ahead_of.contains(open.id.job)) continue;
     const bool shares = std::ranges::any_of(open.goal->ways, [&](const GoalWay& way) {
       return std::ranges::find(arms, way.goal.arm) != arms.end();
     });
-    if (shares && state.arms.begins_elsewhere(*state.cell, *step.trajectory)) return id;
+    if (shares && state.arms.begins_elsewhere(*state.cell, *step.trajectory)) {
+      return open.id.job;
+    }
   }
   return std::nullopt;
 }
@@ -76,6 +87,35 @@ const std::vector<Wait>* known_waits(const State& state, const Step& step) {
 
 bool is_idle_arm(const State& state, const Wait& wait) {
   return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
+}
+
+std::optional<TimePoint> stands_since(const Step& step) {
+  if (const auto* moving = step.in<Moving>()) {
+    return moving->pause ? std::nullopt : std::optional(moving->moved_at);
+  }
+  const bool stopped = step.in<Braking>() != nullptr || step.in<Held>() != nullptr;
+  return stopped ? std::optional(step.times.measured_at) : std::nullopt;
+}
+
+bool is_standing(const Cell& cell, const Step& step, TimePoint now) {
+  const auto* moving = step.in<Moving>();
+  return moving != nullptr && now - moving->moved_at >= promises_for(cell, step).stands_from();
+}
+
+Duration stood_for(const Cell& cell, const Step& step, TimePoint now) {
+  const auto since = stands_since(step);
+  if (!since) return Duration{};
+  const Duration stood = now - *since;
+  return stood < promises_for(cell, step).stands_from() ? Duration{} : stood;
+}
+
+double pace_of(const Cell& cell, const Step& step, double planned, TimePoint now) {
+  const auto* moving = step.in<Moving>();
+  if (moving == nullptr || moving->pause || is_standing(cell, step, now)) return planned;
+  const Duration way = step.progress - moving->goes_from;
+  if (way < promises_for(cell, step).pace_from()) return planned;
+  const double pace = to_seconds(moving->moved_at - moving->goes_since) / to_seconds(way);
+  return pace < kHardlySlow * planned ? planned : pace;
 }
 
 }  // namespace armloom

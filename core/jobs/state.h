@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/jobs/arm_rests.h"
@@ -24,13 +25,8 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
-struct Decided {
-  std::vector<YieldMove> sent_aside = {};  // jobs that the scheduler has added
-  std::vector<Effect> effects = {};
-};
-
-// The state that all modules of the scheduler share, with the decisions of the present step. A copy
-// is independent of the original; Trial works on such a copy.
+// The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
+// copy is independent of the original; Trial works on such a copy.
 struct State {
   CellPtr cell;
   std::shared_ptr<const Policy> policy;
@@ -41,10 +37,8 @@ struct State {
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
   Round round = {};
-  Version version = 1;      // grows when the admitted motions, the arms' rests or the scene change
   Version scene_epoch = 0;  // the version since which the scene is unchanged
   TimePoint now{};          // of the present step
-  Decided decided = {};     // in the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),
@@ -54,6 +48,10 @@ struct State {
         speed(cell->arms.size()),
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
+
+  // Grows when the admitted motions, the arms' rests, the waiting jobs' paths, the scene, the
+  // policy or the speed override change. Each owner counts its own changes.
+  [[nodiscard]] Version version() const { return 1 + jobs.changes() + arms.changes() + changes_; }
 
   // Returns the motion clock at `now`.
   [[nodiscard]] TimePoint clock() const { return speed.clock(now); }
@@ -69,9 +67,58 @@ struct State {
   // Returns true if the job's last check still applies. Precondition: the job is waiting.
   [[nodiscard]] bool is_judged(const Step& step) const {
     const Judgement& found = step.judgement();
-    if (found.at != version) return false;
+    if (found.at != version()) return false;
     return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, step.id);
   }
+
+ private:
+  friend class StateWriter;
+  Version changes_ = 0;  // of the scene, the policy and the speed override
+};
+
+// Owns the state and writes what belongs to no job: time, scene, policy, speed override, round,
+// arms at rest, orders chosen again. Also collects the effects of the present step. Rules read the
+// state through `->`.
+class StateWriter {
+ public:
+  explicit StateWriter(State state) : state_(std::move(state)) {}
+  [[nodiscard]] const State* operator->() const { return &state_; }
+  operator const State&() const { return state_; }
+
+  // Owners whose transitions have no consequences elsewhere.
+  [[nodiscard]] JobBook& jobs() { return state_.jobs; }
+  [[nodiscard]] Lanes& lanes() { return state_.lanes; }
+  [[nodiscard]] ArmRests& arms() { return state_.arms; }
+
+  // A step of the scheduler begins. Precondition: `now` does not decrease.
+  void begin(TimePoint now) { state_.now = now; }
+  void effect(Effect effect) { effects_.push_back(std::move(effect)); }
+  // Announces a job that the scheduler has added.
+  void announce(const YieldMove& added) { added_.push_back(added); }
+  // Returns the effects since the last call. What clients see comes first, so that an event is told
+  // before its consequences.
+  [[nodiscard]] std::vector<Effect> take_effects();
+
+  void change_scene();
+  // Precondition: no motion is admitted.
+  void change_policy(std::shared_ptr<const Policy> policy);
+  void set_speed(const SetSpeed& input);
+  void set_round(Round round) { state_.round = std::move(round); }
+  void locate(const Located& input);
+  // Replaces what the choice of orders knows about the admitted motion, and about other work.
+  void set_outlook(StepId step, const Outlook& outlook) { state_.graph.set_outlook(step, outlook); }
+  void set_work_behind(std::vector<Duration> work) {
+    state_.graph.set_work_behind(std::move(work));
+  }
+  // Takes orders that were chosen again. If none were found, the present orders stay.
+  void renew_orders(const PassingOrders& orders);
+
+ protected:
+  State state_;
+
+ private:
+  std::vector<YieldMove> added_;
+  std::vector<Effect> effects_;
 };
 
 }  // namespace armloom

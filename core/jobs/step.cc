@@ -18,9 +18,16 @@ JobState Step::state() const {
   return moving != nullptr && moving->is_under_way ? JobState::running : JobState::scheduled;
 }
 
+const Pause* Step::pause() const {
+  if (const auto* held = in<Held>()) return &held->pause;
+  const auto* admitted = in<Admitted>();
+  if (admitted != nullptr && admitted->pause) return &*admitted->pause;
+  const auto* moving = in<Moving>();
+  return moving != nullptr && moving->pause ? &*moving->pause : nullptr;
+}
+
 bool Step::pausing() const {
-  if (const auto* admitted = in<Admitted>()) return admitted->pause.has_value();
-  if (const auto* moving = in<Moving>()) return moving->pause.has_value();
+  if (is_admitted()) return pause() != nullptr;
   const auto* braking = in<Braking>();
   return braking != nullptr && braking->paused;
 }
@@ -37,19 +44,9 @@ const GoalWay* Step::stands_in() const {
   return first;
 }
 
-std::optional<Reason> Step::reason() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? std::optional(ended->reason) : std::nullopt;
-}
-
-std::string Step::detail() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? ended->detail : std::string();
-}
-
-std::optional<TimePoint> Step::ended_at() const {
-  const auto* ended = in<Ended>();
-  return ended != nullptr ? std::optional(ended->at) : std::nullopt;
+const Braking* Step::ends_by_braking() const {
+  const auto* braking = in<Braking>();
+  return braking != nullptr && braking->after.then != AfterStop::Then::hold ? braking : nullptr;
 }
 
 }  // namespace armloom

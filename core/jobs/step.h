@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,7 +42,7 @@ struct AfterStop {
   std::string detail = {};          // fail
 };
 
-// The phases of a step, each with its own data, and their transitions (phases.h):
+// The phases of a step, each with its own data, and their transitions (transitions.h):
 //
 //   Queued    -> Admitted   with passing orders
 //   Admitted  -> Moving     dispatched to its arms; or back to Queued, Held: withdrawn
@@ -64,7 +66,7 @@ struct Moving {
   TimePoint goes_since = {};
   Duration goes_from = {};
   bool is_under_way = false;  // has been measured to move; until then it is `scheduled`
-  // Since it came to rest, motions were compared again (without_orders.h).
+  // Since it came to rest, motions were compared again (weighing.h).
   bool was_compared = false;
   std::optional<Pause> pause = {};
 };
@@ -129,7 +131,7 @@ struct YieldsTried {
   std::size_t total = 0;  // number of tries for this job and for the server's jobs that help it
   std::size_t next = 0;   // index of the next candidate path from where `from` brought the arm
   TrajectoryPtr from;     // the motion that had brought the arm to its rest
-  Planned planned = {};   // the planned retreat from there, tried last (planned_aside.h)
+  Planned planned = {};   // the planned retreat from there, tried last (yielding/yield_moves.h)
   // Ends of retreats made for this job and for the server's jobs that help it.
   std::vector<Eigen::VectorXd> went_to;
 };
@@ -169,10 +171,17 @@ struct AgesFrom {
   TimePoint clock;  // the motion clock (SpeedOverride) then
 };
 
+// Returns the fact with this member changed.
+template <typename Fact, typename Member>
+[[nodiscard]] Fact with(Fact fact, Member Fact::*member, std::type_identity_t<Member> value) {
+  fact.*member = std::move(value);
+  return fact;
+}
+
 // A motion of a job, with everything that the scheduler knows about it. The unit of admission.
 struct Step {
   StepId id;
-  std::shared_ptr<const Job> job;  // changed only by JobBook::change()
+  std::shared_ptr<const Job> job;  // changed only by JobBook
   TrajectoryPtr trajectory;
   // As in Submit. `trajectory` is one of them, and may change to another until admission. Empty
   // once the arm is decided.
@@ -231,6 +240,8 @@ struct Step {
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
   // True if the job rests on its path until others have passed.
   [[nodiscard]] bool pausing() const;
+  // Returns the rest on its path; null if there is none, or if the job brakes.
+  [[nodiscard]] const Pause* pause() const;
   // True if the job must be checked (again) before it moves.
   [[nodiscard]] bool is_waiting() const { return in<Queued>() != nullptr || in<Held>() != nullptr; }
   // True if it has passing orders.
@@ -245,10 +256,16 @@ struct Step {
     return held != nullptr ? held->judgement : std::get<Queued>(phase).judgement;
   }
 
+  // Returns the data of a job that brakes and then ends; null if the job goes on to its goal.
+  [[nodiscard]] const Braking* ends_by_braking() const;
   // For a job that has ended.
-  [[nodiscard]] std::optional<Reason> reason() const;
-  [[nodiscard]] std::string detail() const;
-  [[nodiscard]] std::optional<TimePoint> ended_at() const;
+  [[nodiscard]] std::optional<Reason> reason() const { return of_end(&Ended::reason); }
+  [[nodiscard]] std::string detail() const { return of_end(&Ended::detail).value_or(""); }
+  [[nodiscard]] std::optional<TimePoint> ended_at() const { return of_end(&Ended::at); }
+  template <typename T>
+  [[nodiscard]] std::optional<T> of_end(T Ended::*member) const {
+    return has_ended() ? std::optional<T>(in<Ended>()->*member) : std::nullopt;
+  }
   // True if the server moves the arms to its start when they rest elsewhere at its turn.
   [[nodiscard]] bool is_brought_to_start() const {
     return job->terms.move_to_start == MoveToStart::plan || approaches.after_deadlock;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/jobs/pace.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/precedence/motion_chains.h"
@@ -11,12 +10,6 @@
 
 namespace armloom {
 namespace {
-
-// Brakes, and will not go on.
-bool is_given_up(const Step& step) {
-  const auto* braking = step.in<Braking>();
-  return braking != nullptr && braking->after.then != AfterStop::Then::hold;
-}
 
 // What is predicted of all admitted motions, read leg by leg.
 class Timetable {
@@ -44,7 +37,7 @@ class Timetable {
     const bool stuck = is_stuck(m);
     PredictedLeg leg{
         .step = motions_[m].step, .starts = starts(m), .ends = {}, .pauses = pauses(m)};
-    if (!stuck && !is_given_up(job(m))) leg.ends = now_ + prediction_.ends[m];
+    if (!stuck && job(m).ends_by_braking() == nullptr) leg.ends = now_ + prediction_.ends[m];
     if (stuck) leg.pauses.push_back(last_pause(m));
     return leg;
   }
@@ -57,7 +50,7 @@ class Timetable {
   [[nodiscard]] std::optional<Wait> held_by(std::size_t m) const {
     if (auto wait = operator_wait(state_, job(m))) return wait;
     const auto* held = job(m).in<Held>();
-    const bool brakes = job(m).in<Braking>() != nullptr && !is_given_up(job(m));
+    const bool brakes = job(m).in<Braking>() != nullptr && job(m).ends_by_braking() == nullptr;
     const std::vector<Wait>* found = held != nullptr ? &held->judgement.found
                                      : brakes        ? &job(m).waits_on
                                                      : nullptr;

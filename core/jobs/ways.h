@@ -5,13 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/plan_question.h"
 #include "core/coordination/verdict.h"
-#include "core/jobs/path_request.h"
+#include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
+
+// The requests for a path (PlanMotion) for one purpose: a goal, a detour, a replan or a retreat. At
+// most one is open; the next one may be sent when it is answered (ways/path_requests.h).
+struct PathRequest {
+  std::optional<std::uint64_t> question = {};  // number of the open question
+  // Positions of all arms in the last question. Without entries, no answer is up to date.
+  Configuration beside = {};
+  Version asked_at = 0;  // version of the last question
+  int tries = 0;         // questions since the owner last reset this
+};
 
 // A goal for one arm, and the plan for it (goals.h).
 struct GoalWay {
@@ -40,7 +51,6 @@ struct JobGoal {
   std::optional<Detour> detour = {};
 
   [[nodiscard]] const GoalWay& way() const { return ways[taken]; }
-  [[nodiscard]] GoalWay& way() { return ways[taken]; }
 };
 
 // Replanning of a job (replanning.h).

@@ -2,24 +2,24 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
-#include "core/scheduler/admitting.h"
 #include "core/scheduler/groups.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/putting_off.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/detour.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/making_way.h"
+#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 namespace {
@@ -32,8 +32,7 @@ constexpr std::size_t kPutOffMax = 32;
 // none has.
 std::optional<StepId> next_recheck(const State& state) {
   std::optional<StepId> next;
-  for (JobId id : state.jobs.past_queue()) {
-    const Step& step = state.jobs.at(id);
+  for (const Step& step : state.jobs.past_queue()) {
     if (!step.has_authority() || !step.asking.is_in_question) continue;
     const bool is_older =
         !next || step.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
@@ -43,12 +42,52 @@ std::optional<StepId> next_recheck(const State& state) {
 }
 
 // Of what waits, if these go.
-SafeSequence::Outlook outlook_with(State& state, const std::vector<StepId>& steps) {
-  return state.lanes.after(steps, state.jobs, state.arms);
+SafeSequence::Outlook outlook_with(Transitions& state, const std::vector<StepId>& steps) {
+  return state.lanes().after(steps, state->jobs, state->arms);
+}
+
+// Records that a check found the admitted motion free in the present version.
+void note_free(Transitions& state, const Step& step) {
+  Asking asking = step.asking;
+  asking.found_free_at = state->version();
+  asking.is_in_question = false;
+  state.jobs().set(step, asking);
+}
+
+// Counts, for the first job of each arm, the admitted jobs that overtake it after it has waited for
+// `aging_s`.
+void note_overtaken(Transitions& state, const std::vector<StepId>& admitted) {
+  std::set<StepId> told;  // a step of several arms is the first of several queues
+  for (const Step& step : state->jobs.heads()) {
+    const bool waits_long = step.in<Queued>() != nullptr && state->has_aged(step);
+    if (!waits_long || !told.insert(step.id).second) continue;
+    const auto overtaking = std::ranges::count_if(admitted, [&](StepId id) {
+      const Step& other = state->jobs.at(id);
+      return id != step.id && !other.job->system_job && step.job->turn < other.job->turn;
+    });
+    if (overtaking == 0) continue;
+    const std::size_t before = step.starvation ? step.starvation->overtaken_by : 0;
+    state.jobs().set(step,
+                     Starvation{step.ages_from->at, before + static_cast<std::size_t>(overtaking)});
+  }
+}
+
+// Admits the steps with these orders. `candidates`: the motion of each step, in the same order.
+void admit(Transitions& state, const std::vector<StepId>& steps,
+           std::vector<CoordinatedMotion> candidates, const PassingOrders& orders) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Trajectory& trajectory = *state->jobs.at(steps[i]).trajectory;
+    candidates[i].horizon = from_seconds(stopping_reach_s(*state->cell, trajectory)) +
+                            state->cell->monitor.reaction +
+                            promises_of(*state->cell, trajectory.arms()).free_run();
+  }
+  state.admit(steps, candidates, orders);
+  for (StepId id : steps) note_free(state, state->jobs.at(id));
+  note_overtaken(state, steps);
 }
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
-void go_on(State& state, Step& step, const Verdict& verdict) {
+void go_on(Transitions& state, const Step& step, const Verdict& verdict) {
   std::vector<Wait> waits;
   for (const PairRegions& pair : verdict.regions) {
     const auto* arm = std::get_if<ArmId>(&pair.b);
@@ -58,18 +97,15 @@ void go_on(State& state, Step& step, const Verdict& verdict) {
         Blocker{step.id, std::nullopt, *arm, region.proximity, region.time_a, region.time_b}));
   }
   if (!waits.empty()) return put_off(state, step, std::move(waits));
-  enter(state, step, Admitted{});
-  step.times.scheduled_at = state.now;
-  ++state.version;
+  state.readmit(step);
   note_free(state, step);
-  state.jobs.changed(step);
 }
 
 }  // namespace
 
 // ---- What is asked ----
 
-bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cycles) {
+bool Admission::ask_next(Transitions& state, const Turns& turns, const WaitCycles& cycles) {
   if (open_) return false;
   bool put_off = false;
   if (const auto recheck = next_recheck(state)) {
@@ -77,7 +113,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
     return put_off;
   }
   if (const auto job = next_in_question(state)) {
-    Question question = question_by_itself(state, state.jobs.at(*job));
+    Question question = question_by_itself(state, state->jobs.at(*job));
     ask_about(state, only_step(*job), std::move(question), Purpose::itself);
     return put_off;
   }
@@ -91,12 +127,12 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   }
   std::size_t times_put_off = 0;
   for (; turn; turn = Turns(state).next()) {
-    if (++times_put_off > kPutOffMax * (state.jobs.active().size() + kPutOffMax)) {
+    if (++times_put_off > kPutOffMax * (state->jobs.active().size() + kPutOffMax)) {
       throw std::logic_error("endless loop: one step deferred jobs " +
                              std::to_string(times_put_off) + " times, last job " +
                              std::to_string(turn->value()));
     }
-    if (put_off_where_it_stands(state, state.jobs.at(*turn))) {
+    if (put_off_where_it_stands(state, state->jobs.at(*turn))) {
       put_off = true;
       continue;
     }
@@ -108,7 +144,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
       open_->is_only_option = !is_choice;
       return put_off;
     }
-    wait_in_turn(state, state.jobs.at(step), outlook);
+    wait_in_turn(state, state->jobs.at(step), outlook);
     put_off = true;
   }
   if (goes_around_idle_arm(state)) return true;
@@ -116,52 +152,53 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   return put_off;
 }
 
-void Admission::ask(State& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
+void Admission::ask(Transitions& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
                     Purpose purpose) {
   Question question = question_now(state, steps);
-  question.effort = state.jobs.at(steps.front()).asking.effort;
+  question.effort = state->jobs.at(steps.front()).asking.effort;
   std::vector<Passage> unknown = std::move(outlook.unknown);
   std::ranges::move(outlook.ahead, std::back_inserter(unknown));
   add_passages(question, unknown, state);
-  open_ = OpenQuestion{state.version, std::move(steps), purpose, {}, std::move(unknown)};
-  state.decided.effects.push_back(Judge{std::move(question)});
+  open_ = OpenQuestion{state->version(), std::move(steps), purpose, {}, std::move(unknown)};
+  state.effect(Judge{std::move(question)});
 }
 
-void Admission::ask_about(State& state, StepId step, Question question, Purpose purpose) {
-  open_ = OpenQuestion{state.version, {step}, purpose};
-  state.decided.effects.push_back(Judge{std::move(question)});
+void Admission::ask_about(Transitions& state, StepId step, Question question, Purpose purpose) {
+  open_ = OpenQuestion{state->version(), {step}, purpose};
+  state.effect(Judge{std::move(question)});
 }
 
-void Admission::ask_yield(State& state, YieldTrial move) {
+void Admission::ask_yield(Transitions& state, YieldTrial move) {
   if (!move.way) return ask_for_way_aside(state, move);
   Question question = question_about(state, move);
-  open_ =
-      OpenQuestion{state.version, {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
-  state.decided.effects.push_back(Judge{std::move(question)});
+  open_ = OpenQuestion{
+      state->version(), {only_step(move.blocked_job)}, Purpose::yield, std::move(move)};
+  state.effect(Judge{std::move(question)});
 }
 
 // ---- What an answer means ----
 
-void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
+void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) {
   if (!open_ || open_->version != input.verdict.version) return;
   OpenQuestion question = std::move(*open_);
   open_.reset();
   if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
-  state.lanes.learn(question.passages, input.verdict, state.jobs);
-  if (question.version != state.version) return;  // stale: it is asked again
+  state.lanes().learn(question.passages, input.verdict, state->jobs);
+  if (question.version != state->version()) return;  // stale: it is asked again
   switch (question.purpose) {
     case Purpose::yield:
       return answer_yield(state, input.verdict, std::move(*question.yield), cycles);
     case Purpose::itself: {
-      Step& step = state.jobs.at(question.steps.front());
-      step.approaches.feasibility = Approaches::Feasibility::given;
+      const Step& step = state->jobs.at(question.steps.front());
+      using Feasibility = Approaches::Feasibility;
+      state.jobs().set(step, with(step.approaches, &Approaches::feasibility, Feasibility::given));
       if (input.verdict.kind == Verdict::Kind::conflict) {
         (void)fails_by_itself(state, step, input.verdict);
       }
       return;
     }
     case Purpose::recheck: {
-      Step& step = state.jobs.at(question.steps.front());
+      const Step& step = state->jobs.at(question.steps.front());
       note_free(state, step);
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, step, input.verdict);
       return;
@@ -176,7 +213,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   }
 }
 
-void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial move,
+void Admission::answer_yield(Transitions& state, const Verdict& verdict, YieldTrial move,
                              WaitCycles& cycles) {
   if (!is_as_asked(state, move)) return;
   const bool passes = lets_through(state, verdict, move);
@@ -190,7 +227,7 @@ void Admission::answer_yield(State& state, const Verdict& verdict, YieldTrial mo
   if (move.before) cycles.has_opened(state, *move.before);
 }
 
-void Admission::answer_option(State& state, Verdict verdict) {
+void Admission::answer_option(Transitions& state, Verdict verdict) {
   if (!choosing_.stands(state)) return;
   if (choosing_.rate(state, std::move(verdict))) {
     const std::vector<StepId> next{only_step(choosing_.job())};
@@ -198,25 +235,26 @@ void Admission::answer_option(State& state, Verdict verdict) {
   }
   const auto best = choosing_.decide(state);
   if (best) return answer_start(state, *best, {only_step(choosing_.job())});
-  Step& step = state.jobs.at(choosing_.job());
-  wait_behind(state, step, state.jobs.queues().before(step, step.leg.arms.front())->job);
+  const Step& step = state->jobs.at(choosing_.job());
+  wait_behind(state, step, state->jobs.queues().before(step, step.leg.arms.front())->job);
 }
 
-void Admission::answer_start(State& state, const Verdict& verdict,
+void Admission::answer_start(Transitions& state, const Verdict& verdict,
                              const std::vector<StepId>& steps) {
-  Step& first = state.jobs.at(steps.front());
+  const Step& first = state->jobs.at(steps.front());
   if (verdict.kind == Verdict::Kind::free) {
-    if (state.graph.holds(first.id)) return go_on(state, first, verdict);
+    if (state->graph.holds(first.id)) return go_on(state, first, verdict);
     return decide(state, verdict, steps);
   }
-  if (is_asked_again(first, verdict)) return;
+  if (is_asked_again(state, first, verdict)) return;
   if (steps.size() == 1) return refuse(state, first, verdict);
   if (tries_together(state, steps, false)) return;
   put_off(state, first, first.judgement().found);  // one that was to help it cannot go
 }
 
-void Admission::decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps) {
-  Step& first = state.jobs.at(steps.front());
+void Admission::decide(Transitions& state, const Verdict& verdict,
+                       const std::vector<StepId>& steps) {
+  const Step& first = state->jobs.at(steps.front());
   if (!follow_each_other(state, steps)) {
     // Another arm was chosen for a job before one of these, or its plan is old.
     if (steps.size() > 1 && !tries_together(state, steps, false)) {
@@ -226,11 +264,12 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<S
   }
   prepare_choice(state, steps);
   std::vector<CoordinatedMotion> candidates;
-  for (StepId step : steps) candidates.push_back(as_candidate(state, state.jobs.at(step)));
+  for (StepId step : steps) candidates.push_back(as_candidate(state, state->jobs.at(step)));
   const PassingOrders orders =
-      state.policy->decide(state.graph.question(candidates, verdict.regions));
+      state->policy->decide(state->graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
-  if (!can_go && is_asked_again(first, verdict)) return;  // what stands against it is not known yet
+  if (!can_go && is_asked_again(state, first, verdict))
+    return;  // what stands against it is not known yet
   if (can_go && take_arms_that_remain(state, steps)) return;
   if (steps.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, steps, can_go)) return;
@@ -246,21 +285,21 @@ void Admission::decide(State& state, const Verdict& verdict, const std::vector<S
   for (const Blocker& blocker : orders.blockers) {
     if (blocker.blocked != first.id) continue;
     if (blocker.arm) {
-      state.lanes.learn_in_the_way(first.id, *blocker.arm, {blocker.proximity, blocker.own_time},
-                                   state.jobs, state.arms);
+      state.lanes().learn_in_the_way(first.id, *blocker.arm, {blocker.proximity, blocker.own_time},
+                                     state->jobs, state->arms);
     }
     waits.push_back(wait_for(blocker));
   }
-  if (steps.size() == 1 || !waits.empty()) note_found(first, std::move(waits));
+  if (steps.size() == 1 || !waits.empty()) note_found(state, first, std::move(waits));
   std::vector<StepId> group = with_next_jobs(state, steps, orders.in_the_way);
   if (group.size() > steps.size()) return ask(state, group, outlook_with(state, group));
   put_off(state, first, first.judgement().found);
 }
 
 // Whether the jobs go; else they wait, or what has to be known is asked.
-bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps) {
+bool Admission::leaves_a_sequence(Transitions& state, const std::vector<StepId>& steps) {
   auto outlook = outlook_with(state, steps);
-  Step& first = state.jobs.at(steps.front());
+  const Step& first = state->jobs.at(steps.front());
   if (!outlook.unknown.empty()) {
     ask(state, steps, std::move(outlook));
   } else if (outlook.first && steps.size() > 1) {
@@ -275,9 +314,9 @@ bool Admission::leaves_a_sequence(State& state, const std::vector<StepId>& steps
 
 // For some of what waits there is no order one by one, whether these go or not: all are tried as
 // one; where that fails too, these go alone. Whether something else is asked now.
-bool Admission::tries_together(State& state, const std::vector<StepId>& steps, bool can_go) {
-  if (!state.policy->lookahead.admits_groups) return false;
-  const bool tried = together_ && together_->version == state.version;
+bool Admission::tries_together(Transitions& state, const std::vector<StepId>& steps, bool can_go) {
+  if (!state->policy->lookahead.admits_groups) return false;
+  const bool tried = together_ && together_->version == state->version();
   if (!can_go) {
     if (!tried || together_->alone.empty()) return false;
     const std::vector<StepId> alone = std::exchange(together_->alone, {});
@@ -293,7 +332,7 @@ bool Admission::tries_together(State& state, const std::vector<StepId>& steps, b
   if (outlook.all) return false;
   const std::vector<StepId> all = with_all_that_wait(state, steps);
   if (all.size() == steps.size() || all.size() > kTogetherMax) return false;
-  together_ = Together{state.version, steps};
+  together_ = Together{state->version(), steps};
   ask(state, all, outlook_with(state, all));
   return true;
 }

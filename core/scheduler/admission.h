@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/waiting/wait_cycles.h"
@@ -24,10 +24,10 @@ class Admission {
   // - Can an arm retreat to open a deadlock cycle?
   // - Can the job whose turn it is be admitted?
   // - Can an idle arm retreat?
-  [[nodiscard]] bool ask_next(State& state, const Turns& turns, const WaitCycles& cycles);
+  [[nodiscard]] bool ask_next(Transitions& state, const Turns& turns, const WaitCycles& cycles);
   // Handles the answer to the open question. If the version has changed since, the answer is void
   // and the question is asked again.
-  void on(const Judged& input, State& state, WaitCycles& cycles);
+  void on(const Judged& input, Transitions& state, WaitCycles& cycles);
 
  private:
   enum class Purpose {
@@ -52,16 +52,18 @@ class Admission {
     std::vector<StepId> alone;
   };
 
-  void ask(State& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
+  void ask(Transitions& state, std::vector<StepId> steps, SafeSequence::Outlook outlook,
            Purpose purpose = Purpose::start);
-  void ask_about(State& state, StepId step, Question question, Purpose purpose);
-  void ask_yield(State& state, YieldTrial move);
-  void answer_yield(State& state, const Verdict& verdict, YieldTrial move, WaitCycles& cycles);
-  void answer_option(State& state, Verdict verdict);
-  void answer_start(State& state, const Verdict& verdict, const std::vector<StepId>& steps);
-  void decide(State& state, const Verdict& verdict, const std::vector<StepId>& steps);
-  [[nodiscard]] bool leaves_a_sequence(State& state, const std::vector<StepId>& steps);
-  [[nodiscard]] bool tries_together(State& state, const std::vector<StepId>& steps, bool can_go);
+  void ask_about(Transitions& state, StepId step, Question question, Purpose purpose);
+  void ask_yield(Transitions& state, YieldTrial move);
+  void answer_yield(Transitions& state, const Verdict& verdict, YieldTrial move,
+                    WaitCycles& cycles);
+  void answer_option(Transitions& state, Verdict verdict);
+  void answer_start(Transitions& state, const Verdict& verdict, const std::vector<StepId>& steps);
+  void decide(Transitions& state, const Verdict& verdict, const std::vector<StepId>& steps);
+  [[nodiscard]] bool leaves_a_sequence(Transitions& state, const std::vector<StepId>& steps);
+  [[nodiscard]] bool tries_together(Transitions& state, const std::vector<StepId>& steps,
+                                    bool can_go);
 
   std::optional<OpenQuestion> open_;
   Choosing choosing_;

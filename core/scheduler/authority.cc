@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/model/promises.h"
@@ -13,62 +12,56 @@
 namespace armloom {
 namespace {
 
-void explain_pause(State& state, Step& step) {
+void explain_pause(Transitions& state, const Step& step) {
   if (auto speed = speed_wait(state, step)) {
-    return state.jobs.set_wait(step, std::move(*speed));
+    return state.jobs().set_wait(step, std::move(*speed));
   }
-  const auto held = state.graph.held_back(step.id);
-  if (held) state.jobs.set_wait(step, wait_for(*held));
+  const auto held = state->graph.held_back(step.id);
+  if (held) state.jobs().set_wait(step, wait_for(*held));
 }
 
-void pause_at_rest(State& state, Step& step) {
+void pause_at_rest(Transitions& state, const Step& step) {
   if (!step.has_started() || step.pausing()) return;
-  std::get<Admitted>(step.phase).pause.emplace();
-  state.jobs.changed(step);
+  state.jobs().set(step, Pause{});
 }
 
-void dispatch_if_ready(State& state, Step& step) {
+void dispatch_if_ready(Transitions& state, const Step& step) {
   if (!is_at_head(state, step)) return;
-  if (!step.ages_from) step.ages_from = {state.now, state.clock()};
-  if (!step.has_started() && state.arms.start_mismatch(*state.cell, *step.trajectory)) {
-    return withdraw(state, step, {});
+  state.jobs().begin_age(step, {state->now, state->clock()});
+  if (!step.has_started() && state->arms.start_mismatch(*state->cell, *step.trajectory)) {
+    return state.withdraw(step, {});
   }
   if (const auto closed = first_closed(state, step, blocks_start)) {
-    return state.jobs.set_waits(step, closed->waits.all());
+    return state.jobs().set_waits(step, closed->waits.all());
   }
   if (step.asking.is_in_question) return;
-  const Duration limit = state.graph.limit(step.id);
+  const Duration limit = state->graph.limit(step.id);
   if (limit <= step.progress && step.progress < step.trajectory->duration()) {
-    const auto held = state.graph.held_back(step.id);
-    if (held && held->arm && !step.has_started()) return withdraw(state, step, {});
+    const auto held = state->graph.held_back(step.id);
+    if (held && held->arm && !step.has_started()) return state.withdraw(step, {});
     pause_at_rest(state, step);  // stopped on its way: it waits there until it may go on
     explain_pause(state, step);
     return;
   }
-  const Duration authority = std::min(limit, step.progress + state.graph.horizon(step.id));
-  state.graph.granted(step.id, authority);
-  if (!step.has_started()) step.off_path = off_path_of(state, step);
-  enter(state, step,
-        Moving{.overrun_at = overrun_after(state, step),
-               .moved_at = state.now,
-               .goes_since = state.now,
-               .goes_from = step.progress});
-  step.times.scheduled_at = state.now;
-  state.jobs.set_waits(step, {});
-  state.decided.effects.push_back(Dispatch{step.id, state.now, step.progress, authority});
+  const Duration authority = std::min(limit, step.progress + state->graph.horizon(step.id));
+  state.dispatch(step,
+                 {.overrun_at = overrun_after(state, step),
+                  .moved_at = state->now,
+                  .goes_since = state->now,
+                  .goes_from = step.progress},
+                 off_path_of(state, step), authority);
 }
 
-void extend_own_authority(State& state, const Step& step) {
+void extend_own_authority(Transitions& state, const Step& step) {
   if (step.in<Moving>() == nullptr) return;
-  const Duration limit = state.graph.limit(step.id);
-  const Duration authority = std::min(limit, step.progress + state.graph.horizon(step.id));
-  const Duration granted = state.graph.find(step.id)->authority;
+  const Duration limit = state->graph.limit(step.id);
+  const Duration authority = std::min(limit, step.progress + state->graph.horizon(step.id));
+  const Duration granted = state->graph.find(step.id)->authority;
   if (authority <= granted || (authority < granted + kGrantStep && authority < limit)) return;
-  state.graph.granted(step.id, authority);
-  state.decided.effects.push_back(Grant{step.id, authority});
+  state.grant(step, authority);
 }
 
-void go_on(State& state, Step& step) {
+void go_on(Transitions& state, const Step& step) {
   if (step.in<Admitted>() != nullptr) {
     dispatch_if_ready(state, step);
   } else {
@@ -88,50 +81,45 @@ TimePoint overrun_after(const State& state, const Step& step) {
              .overrun_margin(state.cell->execution.duration_margin);
 }
 
-void dispatch_ready(State& state) {
-  const std::vector<JobId> ids = state.jobs.past_queue();
-  for (JobId id : ids) {
-    Step& step = state.jobs.at(id);
+void dispatch_ready(Transitions& state) {
+  for (const Step& step : state->jobs.past_queue()) {
     go_on(state, step);
     if (step.pausing()) explain_pause(state, step);
   }
 }
 
-void extend_authority(State& state, StepId moved) {
-  extend_own_authority(state, state.jobs.at(moved));
+void extend_authority(Transitions& state, StepId moved) {
+  extend_own_authority(state, state->jobs.at(moved));
   std::vector<StepId> behind;
-  for (const Precedence& precedence : state.graph.precedences()) {
+  for (const Precedence& precedence : state->graph.precedences()) {
     if (precedence.first() == moved &&
         std::ranges::find(behind, precedence.second()) == behind.end())
       behind.push_back(precedence.second());
   }
-  for (StepId step : behind) go_on(state, state.jobs.at(step));
+  for (StepId step : behind) go_on(state, state->jobs.at(step));
 }
 
-void see_pauses(State& state, Step& step, Duration progress_before) {
-  auto* moving = std::get_if<Moving>(&step.phase);
+void see_pauses(Transitions& state, const Step& step, Duration progress_before) {
+  const auto* moving = step.in<Moving>();
   if (moving == nullptr || !moving->is_under_way) return;
-  const Duration limit = state.graph.limit(step.id);
+  Moving next = *moving;
+  const Duration limit = state->graph.limit(step.id);
   const bool is_held = limit < step.trajectory->duration();
-  if (is_held && step.progress + state.graph.horizon(step.id) >= limit) {
-    moving->overrun_at = overrun_after(state, step);
-    moving->moved_at = state.now;
-    moving->goes_since = state.now;
-    moving->goes_from = step.progress;
-  }
-  if (step.progress > progress_before) {
-    if (!moving->pause) return;
-    moving->pause.reset();
-    state.jobs.set_waits(step, {});
-    state.jobs.changed(step);
-    return;
+  if (is_held && step.progress + state->graph.horizon(step.id) >= limit) {
+    next.overrun_at = overrun_after(state, step);
+    next.moved_at = state->now;
+    next.goes_since = state->now;
+    next.goes_from = step.progress;
   }
   const bool is_at_limit = is_held && step.progress + kAtLimit >= limit;
-  if ((is_at_limit || speed_wait(state, step)) && !moving->pause) {
-    moving->pause.emplace();
+  if (step.progress > progress_before) {
+    if (next.pause) state.jobs().set_waits(step, {});
+    next.pause.reset();
+  } else if ((is_at_limit || speed_wait(state, step)) && !next.pause) {
+    next.pause.emplace();
     explain_pause(state, step);
-    state.jobs.changed(step);
   }
+  state.jobs().set(step, next);
 }
 
 }  // namespace armloom

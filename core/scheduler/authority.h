@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -10,11 +10,11 @@ namespace armloom {
 [[nodiscard]] TimePoint overrun_after(const State& state, const Step& step);
 // Dispatches admitted motions whose orders let them leave their start, and extends the authority of
 // motions under way.
-void dispatch_ready(State& state);
+void dispatch_ready(Transitions& state);
 // Does the same, but only for the motion that moved and for the motions that pass after it.
-void extend_authority(State& state, StepId moved);
+void extend_authority(Transitions& state, StepId moved);
 // Records that a motion pauses at its limit or continues. Time that it loses there does not count
 // as overrun.
-void see_pauses(State& state, Step& step, Duration progress_before);
+void see_pauses(Transitions& state, const Step& step, Duration progress_before);
 
 }  // namespace armloom

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -18,9 +18,9 @@ inline constexpr Duration kStandstill = std::chrono::seconds(10);
 
 // Ends motions that overrun, and jobs whose timeout is over. With OnTimeout::replan, a job is
 // replanned first.
-void expire_and_overrun(State& state);
+void expire_and_overrun(Transitions& state);
 // Returns when expire_and_overrun() must be called next. Also starts the timeout of jobs that an
 // idle arm or an object now blocks on their path.
-[[nodiscard]] std::optional<TimePoint> next_deadline(State& state);
+[[nodiscard]] std::optional<TimePoint> next_deadline(Transitions& state);
 
 }  // namespace armloom

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/coordination/tracking_errors.h"
-#include "core/jobs/pace.h"
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
 #include "core/trajectory/joint_line.h"
@@ -67,7 +66,7 @@ double off_path_of(const State& state, const Step& step) {
 }
 
 Question question_now(const State& state, const std::vector<StepId>& candidates) {
-  Question question{.version = state.version,
+  Question question{.version = state.version(),
                     .start_at = state.now,
                     .candidates = {},
                     .others = {},
@@ -119,8 +118,7 @@ Configuration rest_after_admitted(const State& state, const Step* step) {
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     const bool is_its_own = step != nullptr && step->trajectory->arms().front() == arm;
-    for (StepId id : state.jobs.queues()[arm]) {
-      const Step& other = state.jobs.at(id);
+    for (const Step& other : state.jobs.of(state.jobs.queues()[arm])) {
       if (&other == step || (!other.is_admitted() && !is_its_own)) break;
       follow_to_end(at, *state.cell, arm, *other.trajectory);
     }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/coordination/effort.h"
-#include "core/jobs/phases.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/ways/detour.h"
@@ -18,13 +17,15 @@ constexpr const char* kUndecided = "undecided: the check exceeded its budget of 
 constexpr int kRaisedMax = 12;
 
 // Nothing: it hits itself, and has not begun.
-std::optional<std::vector<Wait>> waits_for(State& state, Step& step, const Verdict& verdict) {
+std::optional<std::vector<Wait>> waits_for(Transitions& state, const Step& step,
+                                           const Verdict& verdict) {
   if (fails_by_itself(state, step, verdict)) return std::nullopt;
   std::vector<Wait> waits;
   for (const Conflict& conflict : verdict.conflicts) {
     if (conflict.with == Conflict::With::rest && conflict.proximity.arm_b) {
-      state.lanes.learn_in_the_way(step.id, *conflict.proximity.arm_b,
-                                   {conflict.proximity, conflict.own_time}, state.jobs, state.arms);
+      state.lanes().learn_in_the_way(step.id, *conflict.proximity.arm_b,
+                                     {conflict.proximity, conflict.own_time}, state->jobs,
+                                     state->arms);
     }
     waits.push_back(wait_for(conflict));
     if (verdict.kind == Verdict::Kind::undecided) waits.back().detail = kUndecided;
@@ -39,71 +40,54 @@ bool has_no_way_aside(const Step& step, const Wait& wait) {
   });
 }
 
-Judgement& judgement_of(Step& step) {
-  auto* held = std::get_if<Held>(&step.phase);
-  return held != nullptr ? held->judgement : std::get<Queued>(step.phase).judgement;
-}
-
 // Out of the backlog, where it is there.
-void stay_queued(State& state, Step& step, Judgement found) {
+void stay_queued(Transitions& state, const Step& step, Judgement found) {
   if (gives_detour_up(state, step)) return;
-  const auto* queued = step.in<Queued>();
-  if (queued != nullptr && queued->in_backlog) {
-    enter(state, step, Queued{});
-    step.times.backlogged_at.reset();
-    state.jobs.changed(step);
-  }
-  judgement_of(step) = std::move(found);
+  state.jobs().leave_backlog(step);
+  state.jobs().set(step, std::move(found));
   if (!step.ages_from && is_at_head(state, step)) {
-    step.ages_from = {state.now, state.clock()};
+    state.jobs().begin_age(step, {state->now, state->clock()});
   }
-  state.jobs.set_waits(step, step.judgement().found);
+  state.jobs().set_waits(step, step.judgement().found);
 }
 
 }  // namespace
 
-bool fails_by_itself(State& state, Step& step, const Verdict& verdict) {
+bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdict) {
   const auto self = std::ranges::find(verdict.conflicts, Conflict::With::self, &Conflict::with);
   if (self == verdict.conflicts.end() || step.has_started()) return false;
-  end(state, step, JobState::failed, Reason::self_collision, self_collision_text(*self));
+  state.end(step, JobState::failed, Reason::self_collision, self_collision_text(*self));
   return true;
 }
 
-void note_found(Step& step, std::vector<Wait> waits) {
-  judgement_of(step).found = std::move(waits);
+void note_found(Transitions& state, const Step& step, std::vector<Wait> waits) {
+  state.jobs().set(step, with(step.judgement(), &Judgement::found, std::move(waits)));
 }
 
-void put_off(State& state, Step& step, std::vector<Wait> waits) {
-  step.asking.effort = 1;
+void put_off(Transitions& state, const Step& step, std::vector<Wait> waits) {
+  state.jobs().set(step, with(step.asking, &Asking::effort, 1));
   if (gives_detour_up(state, step)) return;
   for (Wait& wait : waits) wait.has_no_way_aside = has_no_way_aside(step, wait);
-  state.jobs.set_waits(step, waits);
-  judgement_of(step) = {state.version, std::move(waits)};
+  state.jobs().set_waits(step, waits);
+  state.jobs().set(step, Judgement{state->version(), std::move(waits)});
   if (!is_at_head(state, step)) return;  // it has had no turn yet
-  if (!step.ages_from) step.ages_from = {state.now, state.clock()};
-  const auto* queued = step.in<Queued>();
-  if (queued != nullptr && !queued->in_backlog) {
-    enter(state, step, Queued{.in_backlog = true, .judgement = queued->judgement});
-    if (!step.times.backlogged_at) {
-      step.times.backlogged_at = state.now;
-      step.times.backlog_clock = state.clock();
-    }
-    state.jobs.changed(step);
-  }
+  state.jobs().begin_age(step, {state->now, state->clock()});
+  state.jobs().put_in_backlog(step, state->now, state->clock());
 }
 
-bool put_off_where_it_stands(State& state, Step& step) {
+bool put_off_where_it_stands(Transitions& state, const Step& step) {
   const GoalWay* way = step.stands_in();
   if (way == nullptr) return false;
   put_off(state, step, {Wait{.kind = Wait::Kind::object, .proximity = way->stands_in}});
   return true;
 }
 
-void wait_behind(State& state, Step& step, JobId first) {
-  stay_queued(state, step, {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
+void wait_behind(Transitions& state, const Step& step, JobId first) {
+  stay_queued(state, step,
+              {state->version(), {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
 }
 
-void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook) {
+void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outlook& outlook) {
   Wait wait{.kind = Wait::Kind::predecessor, .job = outlook.first->job};
   const auto& ends = step.leg.to;
   if (outlook.block && std::ranges::find(ends, outlook.in_the_way) != ends.end()) {
@@ -112,25 +96,27 @@ void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook
     wait.own_time = step.trajectory->duration();
     wait.other_time = outlook.block->time;
   }
-  stay_queued(state, step, {state.version, {std::move(wait)}, outlook.first});
+  stay_queued(state, step, {state->version(), {std::move(wait)}, outlook.first});
 }
 
-void refuse(State& state, Step& step, const Verdict& verdict) {
+void refuse(Transitions& state, const Step& step, const Verdict& verdict) {
   if (auto waits = waits_for(state, step, verdict)) put_off(state, step, std::move(*waits));
 }
 
-void hold_back(State& state, Step& step, const Verdict& verdict) {
+void hold_back(Transitions& state, const Step& step, const Verdict& verdict) {
   auto waits = waits_for(state, step, verdict);
   if (!waits) return;
-  brake(state, step, {});
-  state.jobs.set_waits(step, *waits);
+  state.brake(step, {});
+  state.jobs().set_waits(step, *waits);
 }
 
-bool is_asked_again(Step& step, const Verdict& verdict) {
+bool is_asked_again(Transitions& state, const Step& step, const Verdict& verdict) {
   const auto effort = larger_effort(verdict, step.asking.effort);
   if (!effort || step.asking.raised >= kRaisedMax) return false;
-  step.asking.effort = *effort;
-  ++step.asking.raised;
+  Asking asking = step.asking;
+  asking.effort = *effort;
+  ++asking.raised;
+  state.jobs().set(step, asking);
   return true;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -10,26 +10,26 @@ namespace armloom {
 
 // Precondition of all functions except hold_back(): the job waits.
 // Stores what the job was found to wait for, but does not publish it.
-void note_found(Step& step, std::vector<Wait> waits);
+void note_found(Transitions& state, const Step& step, std::vector<Wait> waits);
 // Defers the job because of these waits. Moves it to the backlog if it is the first of its arms.
-void put_off(State& state, Step& step, std::vector<Wait> waits);
+void put_off(Transitions& state, const Step& step, std::vector<Wait> waits);
 // Defers the job if its path cannot be planned because of an object (Step::stands_in). Otherwise
 // returns false.
-[[nodiscard]] bool put_off_where_it_stands(State& state, Step& step);
+[[nodiscard]] bool put_off_where_it_stands(Transitions& state, const Step& step);
 // Keeps the job out of the backlog: it waits only for `first`, which must go before it.
-void wait_behind(State& state, Step& step, JobId first);
+void wait_behind(Transitions& state, const Step& step, JobId first);
 // Does the same for `outlook.first`, but only while that job precedes the job in the safe sequence.
-void wait_in_turn(State& state, Step& step, const SafeSequence::Outlook& outlook);
+void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outlook& outlook);
 // If the verdict has a self-collision and the job has not begun, fails the job and returns true.
-[[nodiscard]] bool fails_by_itself(State& state, Step& step, const Verdict& verdict);
+[[nodiscard]] bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdict);
 // Defers the job because of the verdict's conflicts, or fails it (fails_by_itself()).
-void refuse(State& state, Step& step, const Verdict& verdict);
+void refuse(Transitions& state, const Step& step, const Verdict& verdict);
 // Brakes an admitted job that is in conflict after a change of the scene.
-void hold_back(State& state, Step& step, const Verdict& verdict);
+void hold_back(Transitions& state, const Step& step, const Verdict& verdict);
 
 // Returns true if the check exceeded its budget of evaluations and will be repeated with a larger
 // budget, after the jobs with smaller budgets. The number of repetitions is limited, so that an
 // undecidable job does not delay others after every change.
-[[nodiscard]] bool is_asked_again(Step& step, const Verdict& verdict);
+[[nodiscard]] bool is_asked_again(Transitions& state, const Step& step, const Verdict& verdict);
 
 }  // namespace armloom

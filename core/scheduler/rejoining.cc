@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
-#include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
@@ -50,18 +47,18 @@ OffPath nearest_on_path(const State& state, ArmId arm, const Step& step) {
 
 }  // namespace
 
-void rejoin(State& state, ArmId arm) {
-  const auto& queue = state.jobs.queues()[arm];
-  if (queue.empty() || state.arms.is_stopped(arm)) return;
-  Step& step = state.jobs.at(queue.front());
+void rejoin(Transitions& state, ArmId arm) {
+  const auto& queue = state->jobs.queues()[arm];
+  if (queue.empty() || state->arms.is_stopped(arm)) return;
+  const Step& step = state->jobs.at(queue.front());
   if (!step.has_started() || step.has_authority()) return;
   const OffPath off = nearest_on_path(state, arm, step);
-  if (off.distance <= state.cell->execution.start_tolerance_rad) {
-    const bool is_within = off.distance <= state.cell->tracking_error(state.cell->arm(arm).robot);
+  if (off.distance <= state->cell->execution.start_tolerance_rad) {
+    const bool is_within = off.distance <= state->cell->tracking_error(state->cell->arm(arm).robot);
     if (is_within || off.distance <= step.off_path) return;
-    step.off_path = off.distance;
+    state.jobs().set_off_path(step, off.distance);
     // Its orders are for the regions of a motion that is nearer to its path.
-    if (state.graph.holds(step.id)) withdraw(state, step, {});
+    if (state->graph.holds(step.id)) state.withdraw(step, {});
     return;
   }
   const bool rejoins = step.goal || step.job->terms.move_to_start == MoveToStart::plan;
@@ -72,10 +69,10 @@ void rejoin(State& state, ArmId arm) {
   std::snprintf(text, sizeof text,
                 "the arm left its path, or was moved while it was stopped: %s is at %.6g, its path "
                 "at %.6g",
-                state.cell->joint(off.joint).name.c_str(),
-                state.arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
-  give_up(state, step,
-          {.then = AfterStop::Then::fail, .reason = Reason::start_mismatch, .detail = text});
+                state->cell->joint(off.joint).name.c_str(),
+                state->arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
+  state.give_up(step,
+                {.then = AfterStop::Then::fail, .reason = Reason::start_mismatch, .detail = text});
 }
 
 }  // namespace armloom

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -9,6 +9,6 @@ namespace armloom {
 // path than start_tolerance_rad, the job is replanned (MoveToStart::plan, or a goal) or fails with
 // Reason::start_mismatch. Otherwise its motion will be certified for the arm's distance, and loses
 // passing orders that were made for a smaller distance.
-void rejoin(State& state, ArmId arm);
+void rejoin(Transitions& state, ArmId arm);
 
 }  // namespace armloom

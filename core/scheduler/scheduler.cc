@@ -1,166 +1,142 @@
 #include "core/scheduler/scheduler.h"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "core/jobs/invariants.h"
-#include "core/jobs/pace.h"
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
-#include "core/scheduler/under_way.h"
 #include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/waiting/turns.h"
 #include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
-#include "core/scheduler/without_orders.h"
-#include "core/scheduler/yielding/errands.h"
 #include "core/scheduler/yielding/making_way.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
 
-void note_moved(const State& state, Step& step) {
-  auto* moving = std::get_if<Moving>(&step.phase);
+void note_moved(Transitions& state, const Step& step) {
+  const auto* moving = step.in<Moving>();
   if (moving == nullptr) return;
-  if (is_standing(*state.cell, step, state.now)) {
-    moving->goes_since = state.now;
-    moving->goes_from = step.progress;
+  Moving next = *moving;
+  if (is_standing(*state->cell, step, state->now)) {
+    next.goes_since = state->now;
+    next.goes_from = step.progress;
   }
-  moving->moved_at = state.now;
-  moving->was_compared = false;
-}
-
-// The first one of a job: it has started.
-void note_progress(State& state, Step& step) {
-  auto* moving = std::get_if<Moving>(&step.phase);
-  if (step.state() == JobState::scheduled) {
-    if (moving != nullptr) moving->is_under_way = true;
-    auto* braking = std::get_if<Braking>(&step.phase);
-    if (braking != nullptr) braking->state = JobState::running;
-    step.note_start(state.now);
-    state.jobs.changed(step);
-  }
-  if (moving != nullptr) extend_authority(state, step.id);
+  next.moved_at = state->now;
+  next.was_compared = false;
+  state.jobs().set(step, next);
 }
 
 // ---- Inputs that concern the shared state alone ----
 
-void take(State& state, const Amend& input) { amend(state, input); }
+void take(Transitions& state, const Amend& input) {
+  const Step* step = state->jobs.find(input.job);
+  if (step == nullptr || step->has_ended()) return;
+  const int before = step->job->terms.priority;
+  state.amend(*step, input.terms);
+  const int priority = step->job->terms.priority;
+  if (priority == before) return;
+  for (const Step& other : state->jobs.of(state->jobs.active())) {
+    if (other.job->errand.on_behalf_of == step->id.job) state.amend(other, {.priority = priority});
+  }
+}
 
-void take(State& state, const Stop& input) {
-  stop_arms(state, input);
+void take(Transitions& state, const Stop& input) {
+  state.stop_arms(input);
   compare_again(state);
 }
 
-void take(State& state, const Resume& input) {
-  for (ArmId arm : input.arms) state.arms.resume(arm);
-  ++state.version;
+void take(Transitions& state, const Resume& input) {
+  for (ArmId arm : input.arms) state.arms().resume(arm);
   for (ArmId arm : input.arms) rejoin(state, arm);
   explain_again(state, input.arms);
 }
 
-void take(State& state, const Unlocated& input) {
-  state.arms.set_unlocated(input.arm, input.may_meet);
-  ++state.version;  // an answer that is under way shall start nothing beside this arm
+void take(Transitions& state, const Unlocated& input) {
+  state.arms().set_unlocated(input.arm, input.may_meet);
   explain_again(state, input.may_meet);
 }
 
-void take(State& state, const Located& input) {
-  const std::vector<ArmId> beside = state.arms.set_located(input.arm);
-  if (!beside.empty()) {
-    ++state.version;
-    explain_again(state, beside);
-  }
-  const auto& queue = state.jobs.queues()[input.arm];
-  Step* head = queue.empty() ? nullptr : &state.jobs.at(queue.front());
+void take(Transitions& state, const Located& input) {
+  explain_again(state, state.arms().set_located(input.arm));
+  const auto& queue = state->jobs.queues()[input.arm];
+  const Step* head = queue.empty() ? nullptr : &state->jobs.at(queue.front());
   if (head != nullptr && head->has_authority()) return;
-  state.arms.locate(*state.cell, input.arm, input.position);
-  ++state.version;
-  state.lanes.renew_later();
+  state.locate(input);
   rejoin(state, input.arm);
   compare_again(state);
 }
-void take(State& state, const StartRecorded& input) {
-  Step* step = state.jobs.find(input.step);
+void take(Transitions& state, const StartRecorded& input) {
+  const Step* step = state->jobs.find(input.step);
   if (step == nullptr) return;
-  state.jobs.change(*step).awaits_record = false;
+  state.jobs().set(*step, with(*step->job, &Job::awaits_record, false));
   renew_clocks(state, *step, true);
 }
-void take(State& state, const SetSpeed& input) { set_speed(state, input); }
+void take(Transitions& state, const SetSpeed& input) { set_speed(state, input); }
 
-void take(State& state, const SceneChanged& input) {
-  state.scene_epoch = ++state.version;
-  const std::vector<JobId> ids = state.jobs.past_queue();
-  for (JobId id : ids) {
-    Step& step = state.jobs.at(id);
+void take(Transitions& state, const SceneChanged& input) {
+  state.change_scene();
+  for (const Step& step : state->jobs.past_queue()) {
     const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
-    if (std::ranges::any_of(step.leg.arms, is_named)) step.asking.is_in_question = true;
+    if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs().put_in_question(step);
   }
-  state.lanes.forget_passages();
 }
 
-void take(State& state, const ChangePolicy& input) {
-  if (!state.graph.motions().empty()) return;
-  state.policy = input.policy;
-  state.round = {};
-  ++state.version;
+void take(Transitions& state, const ChangePolicy& input) {
+  if (!state->graph.motions().empty()) return;
+  state.change_policy(input.policy);
 }
 
-void take(State& state, const Interrupt& input) { interrupt(state, input.keeps_waiting); }
+void take(Transitions& state, const Interrupt& input) { state.interrupt(input.keeps_waiting); }
 
-void take(State&, const Wake&) {}  // what follows is all that it asks for
-
-// What clients see comes first, so that an event is told before its consequences.
-std::vector<Effect> taken_effects(State& state) {
-  std::vector<Effect> result;
-  const std::vector<YieldMove> sent_aside = std::exchange(state.decided.sent_aside, {});
-  for (const YieldMove& move : sent_aside) result.push_back(move);
-  std::set<JobId> changed = std::exchange(state.jobs.news().changed, {});
-  for (const YieldMove& move : sent_aside) {  // they are known before others wait for them
-    if (changed.erase(move.job) != 0) result.push_back(JobChanged{move.job});
-  }
-  for (JobId job : changed) result.push_back(JobChanged{job});
-  std::ranges::move(std::exchange(state.decided.effects, {}), std::back_inserter(result));
-  return result;
-}
+void take(Transitions&, const Wake&) {}  // what follows is all that it asks for
 
 }  // namespace
 
 Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
                      JobId first)
-    : state_(std::move(cell), std::move(policy), std::move(rest), first) {
-  if (!state_.policy) throw std::invalid_argument("Scheduler: no policy");
+    : state_(State(std::move(cell), std::move(policy), std::move(rest), first)) {
+  if (!state_->policy) throw std::invalid_argument("Scheduler: no policy");
 }
 
 Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
                      const std::vector<Motion>& under_way, TimePoint now)
     : Scheduler(std::move(cell), std::move(policy), std::move(rest)) {
-  state_.now = now;
-  put_under_way(state_, under_way);
+  state_.begin(now);
+  for (const Motion& motion : under_way) {
+    state_.add({.job = motion.step.job, .trajectory = motion.trajectory});
+  }
+  renew_round(state_);
+  std::vector<CoordinatedMotion> admitted;
+  for (const Motion& motion : under_way) {
+    const Step& step = state_->jobs.at(motion.step);
+    state_.measure(step, {motion.step, MotionReport::Kind::progressed, motion.progress});
+    admitted.push_back(as_candidate(state_, step));
+  }
+  state_.put_under_way(under_way, admitted);
 }
 
 void Scheduler::on(const Submit& input) {
   Configuration rest = predicted_rest();
-  add(state_, step_of(state_, input));
+  const Step& added = state_.add(input);
   bring_back(state_, input, std::move(rest));
-  reopen_turn(state_, state_.jobs.at(input.job));
+  reopen_turn(state_, added);
 }
 
 std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
-  if (now < state_.now) throw std::invalid_argument("Scheduler: time went backwards");
-  state_.now = now;
+  if (now < state_->now) throw std::invalid_argument("Scheduler: time went backwards");
+  state_.begin(now);
   const auto* report = std::get_if<MotionReport>(&input);
-  const Version version_before = state_.version;
+  const Version version_before = state_->version();
   std::visit(
       [this](const auto& i) {
         if constexpr (requires { take(state_, i); }) {
@@ -173,31 +149,32 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
-                             state_.jobs.news().changed.empty() &&
-                             state_.version == version_before && !is_due();
-  if (only_progress) return std::exchange(state_.decided.effects, {});
+                             !state_->jobs.has_changed() && state_->version() == version_before &&
+                             !is_due();
+  if (only_progress) return state_.take_effects();
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
-  return taken_effects(state_);
+  return state_.take_effects();
 }
 
+// The order of the rules after every input, with the reason for each place.
 void Scheduler::settle() {
-  expire_and_overrun(state_);
-  see_standing(state_);
-  pass_errands_on(state_);
-  cycles_.settle(state_);
-  plan_other_ways(state_);
-  weigh_again(state_);
+  expire_and_overrun(state_);  // first, so that no other rule works for a job that ends now
+  see_standing(state_);        // before authority is given, so that no motion passes unchecked
+  pass_errands_on(state_);     // before cycles are settled, so that no needless job is in one
+  cycles_.settle(state_);   // published in an earlier step; may brake jobs or give them new paths
+  plan_other_ways(state_);  // of jobs that the rules above have brought to rest
+  weigh_again(state_);      // before authority is given, which fixes orders
   dispatch_ready(state_);
   bool put_off = true;
   while (put_off) {  // until a question is open, or nothing is left to be asked
     do {
       fail_impossible_starts(state_);
-    } while (plan_goals(state_));
-    state_.lanes.renew(state_.jobs, state_.arms);
-    renew_round(state_);
+    } while (plan_goals(state_));  // a job that fails changes where later jobs begin
+    state_.lanes().renew(state_->jobs, state_->arms);  // of the jobs and paths that are left
+    renew_round(state_);                               // before waits, which name it
     const Turns turns = explain_waits(state_);
-    cycles_.name(state_);
+    cycles_.name(state_);  // of these waits
     put_off = admission_.ask_next(state_, turns, cycles_);
   }
   look_ahead();
@@ -205,8 +182,8 @@ void Scheduler::settle() {
 
 // Without anything else having happened. Where all goes as expected, the orders are not due.
 bool Scheduler::is_due() {
-  if (deadline_ && *deadline_ <= state_.now) return true;
-  if (!weighs_at_ || *weighs_at_ > state_.now) return false;
+  if (deadline_ && *deadline_ <= state_->now) return true;
+  if (!weighs_at_ || *weighs_at_ > state_->now) return false;
   if (is_off_course(state_)) return true;
   weighs_at_ = weighs_next(state_);
   ask_for_wake();
@@ -216,7 +193,7 @@ bool Scheduler::is_due() {
 void Scheduler::look_ahead() {
   deadline_ = next_deadline(state_);
   if (cycles_.is_one_to_settle()) {
-    const TimePoint soon = state_.now + kAfterRingWasTold;
+    const TimePoint soon = state_->now + kAfterRingWasTold;
     deadline_ = deadline_ ? std::min(*deadline_, soon) : soon;
   }
   if (const auto stands = stands_next(state_)) {
@@ -229,45 +206,42 @@ void Scheduler::look_ahead() {
 void Scheduler::ask_for_wake() {
   std::optional<TimePoint> next = deadline_;
   if (weighs_at_) next = next ? std::min(*next, *weighs_at_) : weighs_at_;
-  if (next && next != wake_at_) state_.decided.effects.push_back(WakeAt{*next});
+  if (next && next != wake_at_) state_.effect(WakeAt{*next});
   wake_at_ = next;
 }
 
 // ---- Inputs ----
 
 void Scheduler::on(const Replan& input) {
-  Step* step = state_.jobs.find(input.job);
+  const Step* step = state_->jobs.find(input.job);
   if (step == nullptr || step->has_ended() || why_not_replanned(*step)) return;
   ask_for_another_way(state_, *step, AnotherWay::Cause::client);
 }
 
 void Scheduler::on(const Cancel& input) {
-  Step* step = state_.jobs.find(input.job);
+  const Step* step = state_->jobs.find(input.job);
   if (step == nullptr || step->has_ended()) return;
   bool brakes = step->has_authority();
   for (JobId approach : approaches_of(state_, *step)) {
-    brakes = brakes || state_.jobs.at(approach).has_authority();
-    give_up(state_, state_.jobs.at(approach), {.then = AfterStop::Then::cancel});
+    brakes = brakes || state_->jobs.at(approach).has_authority();
+    state_.give_up(state_->jobs.at(approach), {.then = AfterStop::Then::cancel});
   }
-  give_up(state_, *step, {.then = AfterStop::Then::cancel});
+  state_.give_up(*step, {.then = AfterStop::Then::cancel});
   if (brakes) compare_again(state_);
 }
 
 void Scheduler::on(const MotionReport& input) {
-  Step* step = state_.jobs.find(input.step);
+  const Step* step = state_->jobs.find(input.step);
   if (step == nullptr || step->has_ended()) return;
-  const Duration before = std::exchange(step->progress, input.progress);
-  step->times.measured_at = state_.now;
+  const Duration before = step->progress;
+  state_.measure(*step, input);
   if (input.progress > before) note_moved(state_, *step);
-  state_.graph.progress(input.step, input.progress);
   see_pauses(state_, *step, before);
   if (input.kind == MotionReport::Kind::progressed) {
-    note_progress(state_, *step);
-    if (auto* braking = std::get_if<Braking>(&step->phase)) {
-      braking->rests_at = input.rests_at;
-    }
+    if (step->state() == JobState::scheduled) state_.jobs().start(*step, state_->now);
+    if (step->in<Moving>() != nullptr) extend_authority(state_, step->id);
   } else {
-    come_to_rest(state_, *step, input);
+    state_.come_to_rest(*step, input);
     for (ArmId arm : step->trajectory->arms()) rejoin(state_, arm);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }
@@ -275,10 +249,44 @@ void Scheduler::on(const MotionReport& input) {
 
 // ---- What others read ----
 
-const Step* Scheduler::find(JobId job) const {
-  const Step* step = state_.jobs.find(job);
-  return step != nullptr ? step : nullptr;
+// The last job of an arm says where it ends.
+Configuration Scheduler::predicted_rest() const {
+  Configuration q = rest();
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
+    if (queue.empty()) continue;
+    const Step& last = state_->jobs.at(queue.back());
+    const Braking* braking = last.ends_by_braking();
+    if (braking == nullptr || !braking->rests_at) {
+      follow_to_end(q, *state_->cell, ArmId{arm}, *last.trajectory);
+      continue;
+    }
+    Eigen::VectorXd stop;
+    last.trajectory->sample_positions(*braking->rests_at, stop);
+    set_joints_of(q, *state_->cell, ArmId{arm}, *last.trajectory, stop);
+  }
+  return q;
 }
+
+std::vector<ArmId> Scheduler::open_ends() const {
+  std::vector<ArmId> open;
+  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
+    const auto& queue = state_->jobs.queues()[ArmId{arm}];
+    if (queue.empty()) continue;
+    const Step& last = state_->jobs.at(queue.back());
+    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
+    const Braking* braking = last.ends_by_braking();
+    const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
+    if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
+  }
+  for (const Step& step : state_->jobs.of(state_->jobs.undecided())) {
+    if (!step.goal) continue;
+    for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
+  }
+  return open;
+}
+
+const Step* Scheduler::find(JobId job) const { return state_->jobs.find(job); }
 
 std::optional<TimePoint> Scheduler::expiry(JobId job) const {
   const Step* found = find(job);
@@ -288,13 +296,13 @@ std::optional<TimePoint> Scheduler::expiry(JobId job) const {
 }
 
 std::vector<JobId> Scheduler::active() const {
-  return {state_.jobs.active().begin(), state_.jobs.active().end()};
+  return {state_->jobs.active().begin(), state_->jobs.active().end()};
 }
 
 std::optional<JobId> Scheduler::occupant(ArmId arm) const {
-  const auto& queue = state_.jobs.queues()[arm];
+  const auto& queue = state_->jobs.queues()[arm];
   if (queue.empty()) return std::nullopt;
-  const Step& head = state_.jobs.at(queue.front());
+  const Step& head = state_->jobs.at(queue.front());
   const bool in_motion =
       head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
   return in_motion ? std::optional(head.id.job) : std::nullopt;
@@ -302,19 +310,19 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
 
 void Scheduler::forget(JobId ended) {
   const Step* step = find(ended);
-  if (step != nullptr && step->has_ended()) state_.jobs.forget(ended);
+  if (step != nullptr && step->has_ended()) state_.jobs().forget(ended);
 }
 
 std::optional<Duration> Scheduler::earliest_start(const Question& question,
                                                   const Verdict& verdict) const {
-  if (verdict.kind != Verdict::Kind::free || question.version != state_.version) {
+  if (verdict.kind != Verdict::Kind::free || question.version != state_->version()) {
     return std::nullopt;
   }
   if (question.candidates.size() != 1) return std::nullopt;
   const std::vector<CoordinatedMotion> candidate{
-      as_candidate(state_, state_.jobs.at(question.candidates.front().step))};
+      as_candidate(state_, state_->jobs.at(question.candidates.front().step))};
   const PassingOrders orders =
-      orders_in_time(state_.graph.question(candidate, verdict.regions), std::nullopt);
+      orders_in_time(state_->graph.question(candidate, verdict.regions), std::nullopt);
   if (!orders.blockers.empty()) return std::nullopt;
   return orders.prediction.begins.back();
 }

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "core/jobs/inputs.h"
-#include "core/jobs/phases.h"
-#include "core/jobs/state.h"
 #include "core/jobs/timeline.h"
+#include "core/jobs/transitions.h"
 #include "core/policies/policy.h"
 #include "core/scheduler/admission.h"
-#include "core/scheduler/amending.h"
 #include "core/scheduler/waiting/wait_cycles.h"
 #include "core/scheduler/ways/goals.h"
 #include "core/scheduler/ways/path_requests.h"
@@ -38,7 +36,8 @@ class Scheduler {
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             JobId first = JobId{1});
   // Creates a scheduler for questions about further jobs (Trial): at `now`, the motions `under_way`
-  // are at their progress, without orders between them. Preconditions: at most one motion per arm;
+  // are at their progress, without orders between them. Under policies with rounds they form one
+  // round. Preconditions: at most one motion per arm;
   // their ids grow. `rest`: where these motions started.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             const std::vector<Motion>& under_way, TimePoint now);
@@ -50,12 +49,12 @@ class Scheduler {
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
   // Returns the rest position of every joint; for a moving joint the position where it started.
-  [[nodiscard]] const Configuration& rest() const { return state_.arms.rest(); }
+  [[nodiscard]] const Configuration& rest() const { return state_->arms.rest(); }
   // Returns where every joint will be when all accepted jobs have succeeded (rad, m), or where the
   // arm comes to rest if its last job is being canceled. A new job must begin there.
   [[nodiscard]] Configuration predicted_rest() const;
   // Returns where clients left the arms that have retreated: a new job may begin there, too.
-  [[nodiscard]] const WaysBack& ways_back() const { return state_.arms.ways_back(); }
+  [[nodiscard]] const WaysBack& ways_back() const { return state_->arms.ways_back(); }
   // Returns the arms for which predicted_rest() is an estimate, because the arm's last goal is a
   // pose without a plan, because a job may still go to this arm or to another one, or because the
   // arm brakes and its controller has not told where it will rest.
@@ -63,12 +62,12 @@ class Scheduler {
 
   // Returns the id for the next job to be submitted. Call again after each step(): the scheduler
   // may have used the id for a job of its own.
-  [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
+  [[nodiscard]] JobId next_job() const { return state_->jobs.next_id(); }
   // Returns the time of the last WakeAt.
   [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
-  [[nodiscard]] const Policy& policy() const { return *state_.policy; }
+  [[nodiscard]] const Policy& policy() const { return *state_->policy; }
   // Returns true if no motion is admitted; otherwise ChangePolicy is ignored.
-  [[nodiscard]] bool may_change_policy() const { return state_.graph.motions().empty(); }
+  [[nodiscard]] bool may_change_policy() const { return state_->graph.motions().empty(); }
   // `question` has a single candidate, and `verdict` is its answer. Returns the candidate's
   // earliest start by the clock, from now; nullopt if none is found.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
@@ -78,10 +77,10 @@ class Scheduler {
     return predicted_timeline(state_, now);
   }
 
-  [[nodiscard]] const SpeedOverride& speed() const { return state_.speed; }
+  [[nodiscard]] const SpeedOverride& speed() const { return state_->speed; }
   // Returns the cell time that the whole motion is predicted to take at the present override.
   [[nodiscard]] Duration time_for(const Trajectory& motion) const {
-    return state_.time_for(motion);
+    return state_->time_for(motion);
   }
   // Returns when the active job expires (deadlines.h).
   [[nodiscard]] std::optional<TimePoint> expiry(JobId job) const;
@@ -89,17 +88,17 @@ class Scheduler {
   [[nodiscard]] const Step* find(JobId job) const;  // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   // Returns true if the arm's queue has a job.
-  [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
-  [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
+  [[nodiscard]] bool has_job(ArmId arm) const { return !state_->jobs.queues()[arm].empty(); }
+  [[nodiscard]] bool stopped(ArmId arm) const { return state_->arms.is_stopped(arm); }
   // Returns true if the arm's position is not known (Unlocated).
-  [[nodiscard]] bool is_unlocated(ArmId arm) const { return state_.arms.is_unlocated(arm); }
+  [[nodiscard]] bool is_unlocated(ArmId arm) const { return state_->arms.is_unlocated(arm); }
   // Returns nullopt if the arm is not stopped.
   [[nodiscard]] const std::optional<ArmRests::StopOfArm>& stop_of(ArmId arm) const {
-    return state_.arms.stop_of(arm);
+    return state_->arms.stop_of(arm);
   }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion, braking or held
   // Returns true if all admitted motions can reach their ends by their orders. For tests.
-  [[nodiscard]] bool is_acyclic() const { return state_.graph.is_acyclic(); }
+  [[nodiscard]] bool is_acyclic() const { return state_->graph.is_acyclic(); }
   // Forgets an ended job. Until then the caller can read its result.
   void forget(JobId ended);
 
@@ -115,7 +114,7 @@ class Scheduler {
   void look_ahead();
   void ask_for_wake();
 
-  State state_;
+  Transitions state_;
   WaitCycles cycles_;
   Admission admission_;
   std::optional<TimePoint> deadline_;   // of jobs and deadlock cycles

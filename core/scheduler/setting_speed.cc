@@ -8,68 +8,62 @@
 #include "core/jobs/timeline.h"
 #include "core/scheduler/authority.h"
 #include "core/scheduler/weighing.h"
-#include "core/scheduler/without_orders.h"
 
 namespace armloom {
 namespace {
 
-void renew_starts(State& state) {
-  for (const PredictedLeg& leg : predicted_timeline(state, state.now).legs) {
-    Step& step = state.jobs.at(leg.step);
+void renew_starts(Transitions& state) {
+  for (const PredictedLeg& leg : predicted_timeline(state, state->now).legs) {
+    const Step& step = state->jobs.at(leg.step);
     const bool is_to_start = step.in<Admitted>() != nullptr && !step.has_started();
-    if (!is_to_start || !leg.starts || step.times.scheduled_at == leg.starts) continue;
-    step.times.scheduled_at = leg.starts;
-    state.jobs.changed(step);
+    if (is_to_start && leg.starts) state.jobs().schedule(step, leg.starts);
   }
 }
 
 }  // namespace
 
-void renew_clocks(const State& state, Step& step, bool rested) {
-  auto* moving = std::get_if<Moving>(&step.phase);
+void renew_clocks(Transitions& state, const Step& step, bool rested) {
+  const auto* moving = step.in<Moving>();
   if (moving == nullptr) return;
-  moving->overrun_at = overrun_after(state, step);
-  moving->goes_since = state.now;
-  moving->goes_from = step.progress;
-  if (rested) moving->moved_at = state.now;
+  Moving next = *moving;
+  next.overrun_at = overrun_after(state, step);
+  next.goes_since = state->now;
+  next.goes_from = step.progress;
+  if (rested) next.moved_at = state->now;
+  state.jobs().set(step, next);
 }
 
-void set_speed(State& state, const SetSpeed& input) {
+void set_speed(Transitions& state, const SetSpeed& input) {
   if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
-  const SpeedOverride before = state.speed;
-  state.speed.set(input.arm, input.share, state.now);
-  ++state.version;  // an answer that is under way shall start nothing at share 0
-  const std::vector<JobId> ids = state.jobs.past_queue();
-  for (JobId id : ids) {
-    Step& step = state.jobs.at(id);
+  const SpeedOverride before = state->speed;
+  state.set_speed(input);
+  for (const Step& step : state->jobs.past_queue()) {
     const auto& arms = step.trajectory->arms();
-    if (before.effective(arms) == state.speed.effective(arms)) continue;
+    if (before.effective(arms) == state->speed.effective(arms)) continue;
     renew_clocks(state, step, before.effective(arms) == 0.0);
   }
   std::vector<ArmId> all;
-  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) all.emplace_back(arm);
+  for (std::uint32_t arm = 0; arm < state->cell->arms.size(); ++arm) all.emplace_back(arm);
   explain_again(state, all);
   prepare_choice(state, {});
-  state.expected.spoil();
   renew_starts(state);
   compare_again(state);
 }
 
-void explain_again(State& state, const std::vector<ArmId>& arms) {
+void explain_again(Transitions& state, const std::vector<ArmId>& arms) {
   std::set<StepId> steps;
   for (const ArmId arm : arms) {
-    steps.insert(state.jobs.queues()[arm].begin(), state.jobs.queues()[arm].end());
+    steps.insert(state->jobs.queues()[arm].begin(), state->jobs.queues()[arm].end());
   }
-  for (const StepId id : steps) {
-    Step& step = state.jobs.at(id);
+  for (const Step& step : state->jobs.of(steps)) {
     const auto is_of_operator = [](const Wait& wait) {
       return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
     };
     const auto wait = operator_wait(state, step);
     const bool waited = std::ranges::any_of(step.waits_on, is_of_operator);
-    if (waited && wait) state.jobs.set_wait(step, *wait);
-    if (waited && !wait) state.jobs.set_waits(step, {});
-    if (waited || wait) state.jobs.explain(step);
+    if (waited && wait) state.jobs().set_wait(step, *wait);
+    if (waited && !wait) state.jobs().set_waits(step, {});
+    if (waited || wait) state.jobs().explain(step);
   }
 }
 

@@ -1,10 +1,11 @@
 #include "core/scheduler/weighing.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "core/jobs/pace.h"
+#include "core/jobs/standing.h"
+#include "core/model/promises.h"
 #include "core/policies/policy.h"
+#include "core/scheduler/waiting/gates.h"
 
 namespace armloom {
 namespace {
@@ -12,6 +13,10 @@ namespace {
 constexpr Duration kEvery = std::chrono::milliseconds(250);
 // Who has stood for so long is not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
+
+bool has_no_orders(const State& state) {
+  return std::holds_alternative<TimedDiscrete>(state.policy->method);
+}
 
 }  // namespace
 
@@ -23,22 +28,22 @@ std::vector<Duration> work_behind(const State& state, const std::vector<const St
   return work;
 }
 
-void prepare_choice(State& state, const std::vector<StepId>& steps) {
+void prepare_choice(Transitions& state, const std::vector<StepId>& steps) {
   std::vector<const Step*> in_front;
-  for (StepId step : steps) in_front.push_back(&state.jobs.at(step));
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    const Step& step = state.jobs.at(motion.step);
-    const bool weighs = state.policy->lookahead.weighs_again;
-    const Duration stands = weighs ? stood_for(*state.cell, step, state.now) : Duration{};
-    const bool is_aged = state.has_aged(step);
-    const double planned = state.speed.pace(motion.arms);
-    state.graph.set_outlook(
+  for (StepId step : steps) in_front.push_back(&state->jobs.at(step));
+  for (const CoordinatedMotion& motion : state->graph.motions()) {
+    const Step& step = state->jobs.at(motion.step);
+    const bool weighs = state->policy->lookahead.weighs_again;
+    const Duration stands = weighs ? stood_for(*state->cell, step, state->now) : Duration{};
+    const bool is_aged = state->has_aged(step);
+    const double planned = state->speed.pace(motion.arms);
+    state.set_outlook(
         motion.step, {.keeps_its_place = is_aged && stands <= Duration{},
                       .stands_for = stands,
-                      .pace = weighs ? pace_of(*state.cell, step, planned, state.now) : planned});
+                      .pace = weighs ? pace_of(*state->cell, step, planned, state->now) : planned});
     in_front.push_back(&step);
   }
-  state.graph.set_work_behind(work_behind(state, in_front));
+  state.set_work_behind(work_behind(state, in_front));
 }
 
 bool is_off_course(const State& state) {
@@ -46,17 +51,12 @@ bool is_off_course(const State& state) {
          state.expected.is_missed(state.graph.motions(), state.now);
 }
 
-void weigh_again(State& state) {
+void weigh_again(Transitions& state) {
   if (!is_off_course(state)) return;
   prepare_choice(state, {});
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<PairRegions> nothing;
-  const PassingOrders orders = state.policy->decide(state.graph.question(nobody, nothing));
-  const std::size_t motions = state.graph.motions().size();
-  // None found, as when admitted motions wait for each other: then the orders of before stand.
-  const bool found = orders.blockers.empty() && orders.prediction.ends.size() == motions;
-  if (found) state.graph.admit(nobody, orders);
-  state.expected.renew(found ? state.graph.motions() : nobody, orders.prediction, state.now);
+  state.renew_orders(state->policy->decide(state->graph.question(nobody, nothing)));
 }
 
 // Who moves may be late. Who was stopped may stand for longer than expected, while another one
@@ -78,6 +78,44 @@ std::optional<TimePoint> weighs_next(const State& state) {
     Duration looks = kEvery;
     while (looks <= stood) looks *= 2;
     next = next ? std::min(*next, *since + looks) : *since + looks;
+  }
+  return next;
+}
+
+void compare_again(Transitions& state) {
+  if (!has_no_orders(state)) return;
+  for (const Step& step : state->jobs.past_queue()) {
+    state.jobs().put_in_question(step);
+    const bool is_kept =
+        step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
+    if (is_kept) state.withdraw(step, {});
+  }
+}
+
+void see_standing(Transitions& state) {
+  if (!has_no_orders(state)) return;
+  bool is_news = false;
+  for (const Step& step : state->jobs.past_queue()) {
+    const auto* moving = step.in<Moving>();
+    if (moving == nullptr || moving->was_compared || !is_standing(*state->cell, step, state->now)) {
+      continue;
+    }
+    Moving next = *moving;
+    next.was_compared = is_news = true;
+    state.jobs().set(step, next);
+  }
+  if (is_news) compare_again(state);
+}
+
+std::optional<TimePoint> stands_next(const State& state) {
+  if (!has_no_orders(state)) return std::nullopt;
+  std::optional<TimePoint> next;
+  for (const Step& step : state.jobs.past_queue()) {
+    const auto* moving = step.in<Moving>();
+    if (moving == nullptr || moving->was_compared) continue;
+    const TimePoint stands =
+        moving->moved_at + promises_of(*state.cell, step.trajectory->arms()).stands_from();
+    next = next ? std::min(*next, stands) : stands;
   }
   return next;
 }

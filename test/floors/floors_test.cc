@@ -1,4 +1,5 @@
-// Checks the includes of core and server: a folder includes only from the folders below it.
+// Checks the includes of core and server: a folder includes only from the folders below it. Checks
+// that the scheduler's state is written only by its owners.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -101,8 +102,26 @@ std::size_t height_in_folder(const std::string& path) {
   return 0;
 }
 
+// The only files that may change a State, Step or Job, or raise a version of the scheduler.
+const std::set<std::string> kOwners = {"core/jobs/arm_rests.cc", "core/jobs/arm_rests.h",
+                                       "core/jobs/job_book.cc",  "core/jobs/job_book.h",
+                                       "core/jobs/state.cc",     "core/jobs/step_facts.cc",
+                                       "core/jobs/step_facts.h"};
+
+std::vector<std::string> foreign_writes_in(const std::string& path, const std::string& text) {
+  const bool is_rule = path.starts_with("core/jobs/") || path.starts_with("core/scheduler/");
+  if (!is_rule || kOwners.contains(path)) return {};
+  static const std::regex write(
+      R"re((const\s+)?(\b(\w+::)*(State|Step|Job)\s*[&*]|\bconst_cast|\+\+[\w.>()-]*(version|changes)))re");
+  std::vector<std::string> writes;
+  for (std::sregex_iterator it(text.begin(), text.end(), write), end; it != end; ++it) {
+    if (!(*it)[1].matched) writes.push_back(path + " is no owner of the state: " + (*it)[0].str());
+  }
+  return writes;
+}
+
 std::vector<std::string> breaches_in(const std::string& path, const std::string& text) {
-  std::vector<std::string> breaches;
+  std::vector<std::string> breaches = foreign_writes_in(path, text);
   const std::string room = room_of(path);
   const auto allowed = kMayInclude.find(room);
   if (allowed == kMayInclude.end()) return {path + ": " + room + " is no room of the design"};
@@ -174,6 +193,16 @@ TEST(Floors, BreachesAreDetected) {
   EXPECT_FALSE(breaches_in("server/hub/x.cc", "#include \"server/api/route.h\"\n").empty());
   EXPECT_FALSE(breaches_in("server/x.cc", "#include \"server/log/log_line.h\"\n").empty());
   EXPECT_TRUE(breaches_in("server/api/x.cc", "#include \"server/http/router.h\"\n").empty());
+  for (const char* write : {"void f(State& state);", "Step* step;", "void f(StepId id, Job& job);",
+                            "++state.version;", "  ++changes_;", "const_cast<X&>(x);"}) {
+    EXPECT_FALSE(breaches_in("core/scheduler/ways/x.cc", write).empty()) << write;
+    EXPECT_FALSE(breaches_in("core/jobs/x.h", write).empty()) << write;
+    EXPECT_TRUE(breaches_in("core/jobs/job_book.cc", write).empty()) << write;
+  }
+  for (const char* read : {"void f(const State& state);", "const Precedence::Step& step",
+                           "std::vector<const Step*> steps;", "void f(Transitions& state);"}) {
+    EXPECT_TRUE(breaches_in("core/scheduler/ways/x.cc", read).empty()) << read;
+  }
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
   EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());

@@ -9,7 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from fault_tree import build, copy, failed_in, put_in, run
 
-ADMISSION, PHASES = 'core/scheduler/admission.cc', 'core/jobs/phases.cc'
+ADMISSION, TRANSITIONS = 'core/scheduler/admission.cc', 'core/jobs/transitions.cc'
 GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
@@ -28,13 +28,13 @@ SCHEDULER = [
     ('a start where the arm rests blocks no motion', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
     ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
     ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
-    ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(step.id);\n  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended'),
-    ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) step.asking', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) step.asking'),
+    ('a canceled motion keeps its end', TRANSITIONS, '  } else {\n    leave_graph(step);\n  }', '  } else if (FAULT) {\n    state_.graph.finish(step.id);\n  } else {\n    leave_graph(step);\n  }'),
+    ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) state.jobs'),
     ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
     ('an admitted motion is missing in the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.step) != candidates.end()) continue;'),
     ('the question assumes that all arms are at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),
-    ('progress is overestimated', 'core/scheduler/scheduler.cc', '  state_.graph.progress(input.step, input.progress);', '  state_.graph.progress(input.step, FAULT ? std::min(input.progress + Duration(600\'000\'000), step->step.trajectory->duration()) : input.progress);'),
-    ('authority is granted to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, step.progress + state.graph.horizon(step.id));\n  const Duration granted', '  const Duration authority = FAULT ? step.trajectory->duration() : std::min(limit, step.progress + state.graph.horizon(step.id));\n  const Duration granted'),
+    ('progress is overestimated', TRANSITIONS, '  state_.graph.progress(report.step, report.progress);', '  state_.graph.progress(report.step, FAULT ? std::min(report.progress + Duration(600\'000\'000), step.trajectory->duration()) : report.progress);'),
+    ('authority is granted to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, step.progress + state->graph.horizon(step.id));\n  const Duration granted', '  const Duration authority = FAULT ? step.trajectory->duration() : std::min(limit, step.progress + state->graph.horizon(step.id));\n  const Duration granted'),
     ('a waiting arm stops inside the region', PRECEDENCE, 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
     ('arms at rest in the way are ignored', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
     ('only the first order of a motion applies', GRAPH, '    if (precedence.second() != step) continue;\n    const auto held', '    if (precedence.second() != step || (FAULT && limit < found->duration)) continue;\n    const auto held'),
@@ -43,13 +43,13 @@ SCHEDULER = [
     ('an order ends halfway through the region', PRECEDENCE, '  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);', '  if (FAULT) for (ProgressBox& box : boxes) box.to_a -= (box.to_a - box.from_a) / 2;\n  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);'),
     ('a waiting arm continues to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
     ('a region loses its first box', PRECEDENCE, '  Duration begins{};  //', '  if (FAULT && boxes.size() > 1) boxes.pop_back();\n  Duration begins{};  //'),
-    ('a stopped motion continues without orders', 'core/scheduler/authority.cc', '  const Duration limit = state.graph.limit(step.id);\n  if (limit <= step.progress', '  const Duration limit = FAULT && step.has_started() ? step.trajectory->duration() : state.graph.limit(step.id);\n  if (limit <= step.progress'),
+    ('a stopped motion continues without orders', 'core/scheduler/authority.cc', '  const Duration limit = state->graph.limit(step.id);\n  if (limit <= step.progress', '  const Duration limit = FAULT && step.has_started() ? step.trajectory->duration() : state->graph.limit(step.id);\n  if (limit <= step.progress'),
     ('a canceled motion is assumed to rest at its start', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
     ('only one of several regions of a pair applies', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
     ('motions under way are assumed to be at their ends', QUESTIONS, '                .progress = step.progress,\n                .to_come', '                .progress = FAULT && step.progress > Duration{} ? step.trajectory->duration() : step.progress,\n                .to_come'),
     ('a start off the path is not reported', QUESTIONS, '    if (off_arm > error) off =', '    if (off_arm > error && !FAULT) off ='),
-    ('a motion that the checker rejects is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
+    ('a motion that the checker rejects is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state->graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state->graph'),
 ]
 
 FAULTS_IN_GUARD = [

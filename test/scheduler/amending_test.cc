@@ -1,5 +1,3 @@
-#include "core/scheduler/amending.h"
-
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/deadlock/waits_for.h"
-#include "core/scheduler/waiting/priority_inheritance.h"
+#include "core/scheduler/waiting/turns.h"
 
 namespace armloom {
 namespace {

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/jobs/phases.h"
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 #include "core/policies/policy_names.h"
 #include "test/scheduler/bench_cell.h"
 
@@ -14,16 +13,16 @@ namespace {
 // certified, seed 21000112).
 TEST(JobBook, SortsByTurnWithinEachArmQueue) {
   const CellPtr cell = one_joint_arms(1);
-  State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});
+  Transitions state(
+      State(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1}));
   const auto add_job = [&](std::optional<JobId> before) {
-    const JobId id = state.jobs.next_id();
-    add(state, step_of(state, {id, move({0}, 0.0, 0.0, 1s)},
-                       Errand{.on_behalf_of = id, .before = before}));
+    const JobId id = state->jobs.next_id();
+    state.add({id, move({0}, 0.0, 0.0, 1s)}, Errand{.on_behalf_of = id, .before = before});
     return id;
   };
   const JobId ahead = add_job({}), last = add_job({}), errand = add_job(last);
-  EXPECT_EQ(in_turn(state.jobs, {ahead, last, errand}), (std::vector{ahead, errand, last}));
-  EXPECT_EQ(in_turn(state.jobs, {last, errand}), (std::vector{errand, last}));
+  EXPECT_EQ(in_turn(state->jobs, {ahead, last, errand}), (std::vector{ahead, errand, last}));
+  EXPECT_EQ(in_turn(state->jobs, {last, errand}), (std::vector{errand, last}));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/scheduler/waiting/capacity.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/jobs/standing.h"
 #include "core/policies/policy.h"
@@ -39,38 +40,39 @@ std::optional<JobId> place_taken_by(const State& state, const Step& step) {
   return std::nullopt;
 }
 
-void renew_round(State& state) {
+void renew_round(Transitions& state) {
   if (!has_rounds(state)) return;
-  Round& round = state.round;
-  const JobBook& book = state.jobs;
+  Round round = state->round;
+  const JobBook& book = state->jobs;
   const auto blocks_place = [](const Gate& gate) { return gate.blocks >= Blocks::place; };
   std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
   for (const auto& queue : book.queues()) {
-    for (const StepId step : queue) {
-      const auto& before = book.at(step).job->errand.before;
+    for (const Step& step : book.of(queue)) {
+      const auto& before = step.job->errand.before;
       if (!before) break;
-      if (round.jobs.contains(*before)) round.jobs.insert(step.job);
+      if (round.jobs.contains(*before)) round.jobs.insert(step.id.job);
     }
   }
-  const bool stuck =
-      std::ranges::all_of(round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
   if (round.jobs.empty()) round.has_begun = false;
   for (JobId id : round.jobs) round.has_begun |= book.at(id).has_started();
+  state.set_round(round);
+  const bool stuck =
+      std::ranges::all_of(round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
   if (round.has_begun && !stuck) return;
-  for (const auto& queue : book.queues()) {
-    if (queue.empty()) continue;
-    const Step& step = book.at(queue.front());
+  for (const Step& step : book.heads()) {
     const bool goes =
         step.is_waiting() && !step.is_unplanned() && !any_closed(state, step, blocks_place);
     if (goes) round.jobs.insert(step.id.job);
   }
+  state.set_round(std::move(round));
 }
 
-void give_place_to_first(State& state, const std::vector<JobId>& jobs) {
-  auto& round = state.round.jobs;
+void give_place_to_first(Transitions& state, const std::vector<JobId>& jobs) {
+  Round round = state->round;
   for (JobId id : jobs) {
-    if (round.erase(id) > 0) round.insert(jobs.front());
+    if (round.jobs.erase(id) > 0) round.jobs.insert(jobs.front());
   }
+  state.set_round(std::move(round));
 }
 
 }  // namespace armloom

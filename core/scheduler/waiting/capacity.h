@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -18,8 +18,8 @@ namespace armloom {
 // - if no job of the round has moved: the jobs of arms that have none in it
 // - if all jobs of the round wait for other jobs or arms: jobs that could move these arms away
 // - jobs of the server that must precede a job of the round
-void renew_round(State& state);
+void renew_round(Transitions& state);
 // Gives the place of any of these jobs to the first of them.
-void give_place_to_first(State& state, const std::vector<JobId>& jobs);
+void give_place_to_first(Transitions& state, const std::vector<JobId>& jobs);
 
 }  // namespace armloom

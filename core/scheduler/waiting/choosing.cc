@@ -17,15 +17,10 @@ double arrival_of(const State& state, const Step& step, const Prediction& predic
   const auto& motions = state.graph.motions();
   if (prediction.ends.size() > motions.size()) return to_seconds(prediction.ends.back());
   const ArmId arm = step.goal->way().goal.arm;
-  Duration then{};
-  for (std::size_t m = 0; m < motions.size(); ++m) {
-    const auto arms = state.jobs.at(motions[m].step).trajectory->arms();
-    if (std::ranges::find(arms, arm) != arms.end()) then = std::max(then, prediction.ends[m]);
-  }
-  for (StepId id : state.jobs.queues()[arm]) {
-    const Step& before = state.jobs.at(id);
+  Duration then = free_at(state, arm, prediction);
+  for (const Step& before : state.jobs.of(state.jobs.queues()[arm])) {
     if (before.is_waiting()) then += state.time_for(*before.trajectory);
-    if (id == step.id) break;
+    if (before.id == step.id) break;
   }
   return to_seconds(then);
 }
@@ -62,15 +57,15 @@ double cost_of(const State& state, const Step& step, const Prediction& predictio
   return last + OrderSearch::weight_of_sum(behind) * sum;
 }
 
-PassingOrders orders_with(State& state, const std::vector<CoordinatedMotion>& candidates,
+PassingOrders orders_with(const State& state, const std::vector<CoordinatedMotion>& candidates,
                           const std::vector<PairRegions>& regions) {
   return state.policy->decide(state.graph.question(candidates, regions));
 }
 
 // Nothing: it cannot go as things are.
-std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict) {
+std::optional<double> cost_with(Transitions& state, JobId job, const Verdict& verdict) {
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
-  const Step& candidate = state.jobs.at(job);
+  const Step& candidate = state->jobs.at(job);
   prepare_choice(state, {candidate.id});
   const PassingOrders orders =
       orders_with(state, {as_candidate(state, candidate)}, verdict.regions);
@@ -79,11 +74,11 @@ std::optional<double> cost_with(State& state, JobId job, const Verdict& verdict)
 }
 
 // It waits behind others of its arm: no less than if nothing met it.
-std::optional<double> cost_behind_others(State& state, JobId job) {
-  const Step& candidate = state.jobs.at(job);
+std::optional<double> cost_behind_others(Transitions& state, JobId job) {
+  const Step& candidate = state->jobs.at(job);
   prepare_choice(state, {candidate.id});
   const PassingOrders orders = orders_with(state, {}, {});
-  if (orders.prediction.ends.size() != state.graph.motions().size()) return std::nullopt;
+  if (orders.prediction.ends.size() != state->graph.motions().size()) return std::nullopt;
   return cost_of(state, candidate, orders.prediction);
 }
 
@@ -106,7 +101,17 @@ std::vector<Choice::Without> without(const State& state, const Step& step,
 
 }  // namespace
 
-bool Choosing::begin(State& state, JobId turn) {
+Duration free_at(const State& state, ArmId arm, const Prediction& prediction) {
+  const auto& motions = state.graph.motions();
+  Duration ends{};
+  for (std::size_t m = 0; m < std::min(motions.size(), prediction.ends.size()); ++m) {
+    const auto& arms = motions[m].arms;
+    if (std::ranges::find(arms, arm) != arms.end()) ends = std::max(ends, prediction.ends[m]);
+  }
+  return ends;
+}
+
+bool Choosing::begin(Transitions& state, JobId turn) {
   options_ = options_of(state, turn);
   rated_.clear();
   at_ = 0;
@@ -118,7 +123,7 @@ bool Choosing::begin(State& state, JobId turn) {
 }
 
 // The others are rated on the way.
-bool Choosing::comes_to_one_that_goes(State& state) {
+bool Choosing::comes_to_one_that_goes(Transitions& state) {
   for (; rated_.size() < options_.size();
        rated_.push_back({cost_behind_others(state, job()), {}})) {
     give(state, rated_.size());
@@ -127,12 +132,12 @@ bool Choosing::comes_to_one_that_goes(State& state) {
   return false;
 }
 
-void Choosing::give(State& state, std::size_t option) {
+void Choosing::give(Transitions& state, std::size_t option) {
   give_turn(state, options_, option);
   at_ = option;
 }
 
-bool Choosing::rate(State& state, Verdict verdict) {
+bool Choosing::rate(Transitions& state, Verdict verdict) {
   const std::optional<double> cost = cost_with(state, job(), verdict);
   rated_.push_back({cost, std::move(verdict)});
   return comes_to_one_that_goes(state);
@@ -155,7 +160,7 @@ std::size_t Choosing::best() const {
   return static_cast<std::size_t>(asked - rated_.begin());
 }
 
-std::optional<Verdict> Choosing::decide(State& state) {
+std::optional<Verdict> Choosing::decide(Transitions& state) {
   const std::size_t chosen = best();
   give(state, chosen);
   note(state, chosen);
@@ -163,18 +168,17 @@ std::optional<Verdict> Choosing::decide(State& state) {
 }
 
 // Where no other arm can.
-void Choosing::note_only_arm(State& state) const {
-  Step& step = state.jobs.at(job());
+void Choosing::note_only_arm(Transitions& state) const {
+  const Step& step = state->jobs.at(job());
   if (options_.size() > 1 || step.alternatives.empty()) return;
   Choice choice{.arms = step.trajectory->arms(), .without = without(state, step, options_)};
   const auto& before = step.choice;
   if (before && before->arms == choice.arms) return;
-  step.choice = std::move(choice);
-  state.jobs.changed(step);
+  state.jobs().set(step, std::move(choice));
 }
 
-void Choosing::note(State& state, std::size_t best) const {
-  Step& taker = state.jobs.at(options_[best].job);
+void Choosing::note(Transitions& state, std::size_t best) const {
+  const Step& taker = state->jobs.at(options_[best].job);
   Choice choice;
   for (const Option& option : options_) {
     if (taker.alternatives.empty()) {
@@ -184,15 +188,13 @@ void Choosing::note(State& state, std::size_t best) const {
     }
   }
   if (const auto first = options_.front().job; first != taker.id.job) {
-    auto& overtaken_at = state.jobs.at(first).overtaken_at;
-    if (!overtaken_at) overtaken_at = state.clock();
+    state.jobs().begin_overtaken(state->jobs.at(first), state->clock());
   }
   if (rated_[best].cost && rated_.front().cost) {
     choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);
   }
   choice.without = without(state, taker, options_);
-  taker.choice = std::move(choice);
-  state.jobs.changed(taker);
+  state.jobs().set(taker, std::move(choice));
 }
 
 }  // namespace armloom

@@ -21,23 +21,23 @@ class Choosing {
 
   // Begins to choose. If there are several options, returns true, and job() must be checked.
   // Otherwise returns false.
-  [[nodiscard]] bool begin(State& state, JobId turn);
+  [[nodiscard]] bool begin(Transitions& state, JobId turn);
   [[nodiscard]] JobId job() const { return options_[at_].job; }
   // Returns false if an option no longer waits; then call begin() again.
   [[nodiscard]] bool stands(const State& state) const { return stand(state, options_); }
   // Takes the verdict for job(). Returns true if there is a further option: job() is then that
   // option, and must be checked.
-  [[nodiscard]] bool rate(State& state, Verdict verdict);
+  [[nodiscard]] bool rate(Transitions& state, Verdict verdict);
   // Call when rate() has returned false. Gives the turn to the best option and returns its verdict;
   // nullopt if that option waits behind other jobs.
-  [[nodiscard]] std::optional<Verdict> decide(State& state);
+  [[nodiscard]] std::optional<Verdict> decide(Transitions& state);
 
  private:
-  [[nodiscard]] bool comes_to_one_that_goes(State& state);
-  void give(State& state, std::size_t option);
+  [[nodiscard]] bool comes_to_one_that_goes(Transitions& state);
+  void give(Transitions& state, std::size_t option);
   [[nodiscard]] std::size_t best() const;
-  void note(State& state, std::size_t best) const;
-  void note_only_arm(State& state) const;
+  void note(Transitions& state, std::size_t best) const;
+  void note_only_arm(Transitions& state) const;
 
   struct Rating {
     std::optional<double> cost;      // s; nullopt if the option cannot go
@@ -47,5 +47,8 @@ class Choosing {
   std::vector<Rating> rated_;
   std::size_t at_ = 0;
 };
+
+// Returns when the last admitted motion of the arm ends, from now; zero if it has none.
+[[nodiscard]] Duration free_at(const State& state, ArmId arm, const Prediction& prediction);
 
 }  // namespace armloom

@@ -255,8 +255,7 @@ bool stands(const State& state, const Step& step) {
 WaitsFor waits_for(const State& state) {
   Edges edges;
   add_behind(state, edges);
-  for (JobId id : state.jobs.active()) {
-    const Step& step = state.jobs.at(id);
+  for (const Step& step : state.jobs.of(state.jobs.active())) {
     if (stands(state, step)) add_gates(state, step, edges);
   }
   return WaitsFor(std::move(edges));

@@ -88,34 +88,33 @@ std::size_t alternative_now(const Step& step) {
 }
 
 // It waits, and is in no sequence by the arm that it has.
-bool is_shut(State& state, const Step& step) {
-  return step.in<Queued>() != nullptr && !state.lanes.has_place(step.id, state.jobs, state.arms);
+bool is_shut(Transitions& state, const Step& step) {
+  return step.in<Queued>() != nullptr &&
+         !state.lanes().has_place(step.id, state->jobs, state->arms);
 }
 
 // Takes one by which it is not shut. Returns false if there is none: it keeps what it had, and what
 // is known of that, which would else be asked again, for ever.
-bool take_open_alternative(State& state, Step& step) {
+bool take_open_alternative(Transitions& state, const Step& step) {
   const std::size_t had = alternative_now(step);
   const std::uint64_t motion = step.leg.motion;
-  Lanes lanes = state.lanes;
+  Lanes lanes = state->lanes;
   for (const Option& option : on_several_arms(state, step)) {
     if (option.alternative == had) continue;
     take_alternative(state, step, option.alternative);
     if (!is_shut(state, step)) return true;
   }
   take_alternative(state, step, had);
-  step.leg.motion = motion;
-  state.lanes = std::move(lanes);
-  state.lanes.renew_later();
+  state.restore(step, motion, std::move(lanes));
   return false;
 }
 
 // It keeps that arm: `why` it cannot do without on the one that it has.
-bool takes_arm_that_remains(State& state, Step& step, const char* why) {
+bool takes_arm_that_remains(Transitions& state, const Step& step, const char* why) {
   const ArmId had = arm_of(*step.trajectory);
   if (!take_open_alternative(state, step)) return false;
-  step.choice = Choice{.arms = {arm_of(*step.trajectory)}, .without = {{had, why}}};
-  state.jobs.decide_arm(step);
+  state.jobs().set(step, Choice{.arms = {arm_of(*step.trajectory)}, .without = {{had, why}}});
+  state.jobs().decide_arm(step);
   return true;
 }
 
@@ -140,9 +139,9 @@ std::size_t place_on(const State& state, const Step& step, ArmId arm) {
   return static_cast<std::size_t>(queue.rend() - last);
 }
 
-void take_alternative(State& state, Step& step, std::size_t which) {
+void take_alternative(Transitions& state, const Step& step, std::size_t which) {
   const TrajectoryPtr trajectory = step.alternatives[which];
-  const auto& queue = state.jobs.queues()[arm_of(*trajectory)];
+  const auto& queue = state->jobs.queues()[arm_of(*trajectory)];
   const auto now = std::ranges::find(queue, step.id) - queue.begin();
   auto place = static_cast<std::ptrdiff_t>(place_on(state, step, arm_of(*trajectory)));
   if (step.trajectory == trajectory) {
@@ -150,22 +149,18 @@ void take_alternative(State& state, Step& step, std::size_t which) {
     if (now < place) --place;
     if (now == place || step.in<Queued>() == nullptr) return;
   }
-  if (step.goal) step.goal->taken = which;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, step.id, *trajectory);
-  state.jobs.take(step, trajectory, std::move(leg), static_cast<std::size_t>(place));
-  state.lanes.renew_later();
+  state.take_alternative(step, which, static_cast<std::size_t>(place));
 }
 
-bool take_arms_that_remain(State& state, const std::vector<StepId>& go) {
-  if (state.jobs.undecided().empty()) return false;
-  if (state.lanes.after(go, state.jobs, state.arms).all) return false;
+bool take_arms_that_remain(Transitions& state, const std::vector<StepId>& go) {
+  if (state->jobs.undecided().empty()) return false;
+  if (state.lanes().after(go, state->jobs, state->arms).all) return false;
   bool any = false;
   for (JobId id : first_undecided(state)) {
-    Step& step = state.jobs.at(id);
+    const Step& step = state->jobs.at(id);
     if (!is_shut(state, step)) continue;
     any |= takes_arm_that_remains(state, step, "other arms come to rest in its path");
   }
-  if (any) ++state.version;
   return any;
 }
 
@@ -174,21 +169,18 @@ std::vector<JobId> first_undecided(const State& state) {
   return {first.begin(), first.end()};
 }
 
-bool leaves_by_other_arm(State& state, const WaitCycle& ring) {
-  for (JobId id : ring) {
-    Step& step = state.jobs.at(id);
-    auto* queued = std::get_if<Queued>(&step.phase);
-    if (queued == nullptr || step.alternatives.empty()) continue;
+bool leaves_by_other_arm(Transitions& state, const WaitCycle& ring) {
+  for (const Step& step : state->jobs.of(ring)) {
+    if (step.in<Queued>() == nullptr || step.alternatives.empty()) continue;
     if (!takes_arm_that_remains(state, step, "the job would wait forever in a deadlock cycle"))
       continue;
-    queued->judgement = {};
-    ++state.version;
+    state.jobs().set(step, Judgement{});
     return true;
   }
   return false;
 }
 
-std::vector<Option> options_of(State& state, JobId turn) {
+std::vector<Option> options_of(const State& state, JobId turn) {
   const Step& step = state.jobs.at(turn);
   const auto& alternatives = step.alternatives;
   const bool waits = step.in<Queued>() != nullptr;
@@ -203,8 +195,8 @@ bool has_turn_on_some_arm(const State& state, const Step& step) {
   return std::ranges::any_of(on_several_arms(state, step), &Option::goes_now);
 }
 
-void give_turn(State& state, const std::vector<Option>& options, std::size_t first) {
-  Step& taker = state.jobs.at(options[first].job);
+void give_turn(Transitions& state, const std::vector<Option>& options, std::size_t first) {
+  const Step& taker = state->jobs.at(options[first].job);
   if (!taker.alternatives.empty()) {
     return take_alternative(state, taker, options[first].alternative);
   }
@@ -213,18 +205,19 @@ void give_turn(State& state, const std::vector<Option>& options, std::size_t fir
   for (const Option& option : options) {
     if (option.job != jobs.front()) jobs.push_back(option.job);
   }
-  state.jobs.put_in_order(jobs);
-  state.lanes.renew_later();
+  state.put_in_order(jobs);
   give_place_to_first(state, jobs);
 }
 
-void reopen_turn(State& state, const Step& added) {
+void reopen_turn(Transitions& state, const Step& added) {
   if (!may_change_places(state, added)) return;
-  const auto& queue = state.jobs.queues()[added.leg.arms.front()];
-  const auto waits = [&](StepId step) { return state.jobs.at(step).is_waiting(); };
-  Step& first = state.jobs.at(*std::ranges::find_if(queue, waits));
-  auto* queued = std::get_if<Queued>(&first.phase);
-  if (queued != nullptr && options_of(state, first.id.job).size() > 1) queued->judgement = {};
+  const auto& queue = state->jobs.queues()[added.leg.arms.front()];
+  const auto waits = [&](StepId step) { return state->jobs.at(step).is_waiting(); };
+  const Step& first = state->jobs.at(*std::ranges::find_if(queue, waits));
+  const bool is_queued = first.in<Queued>() != nullptr;
+  if (is_queued && options_of(state, first.id.job).size() > 1) {
+    state.jobs().set(first, Judgement{});
+  }
 }
 
 bool stand(const State& state, const std::vector<Option>& options) {
@@ -233,7 +226,7 @@ bool stand(const State& state, const std::vector<Option>& options) {
   });
 }
 
-bool begins_on_other_arm(State& state, Step& step) {
+bool begins_on_other_arm(Transitions& state, const Step& step) {
   for (std::size_t k = 0; k < step.alternatives.size(); ++k) {
     if (step.in<Queued>() == nullptr) return false;
     if (when_on(state, step, *step.alternatives[k]) == When::never) continue;

@@ -9,7 +9,6 @@
 #include "core/scheduler/waiting/capacity.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
-#include "core/scheduler/waiting/priority_inheritance.h"
 
 namespace armloom {
 namespace {
@@ -48,12 +47,12 @@ std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue
 }
 
 // Whose waits may be others than they were told. Ascending.
-std::vector<JobId> to_explain(State& state) {
-  const std::set<JobId> unexplained = std::exchange(state.jobs.news().unexplained, {});
+std::vector<JobId> to_explain(Transitions& state) {
+  const std::set<JobId> unexplained = state.jobs().take_unexplained();
   std::vector<JobId> jobs;
-  jobs.reserve(unexplained.size() + 2 * state.cell->arms.size() + kUndecidedMax);
+  jobs.reserve(unexplained.size() + 2 * state->cell->arms.size() + kUndecidedMax);
   jobs.assign(unexplained.begin(), unexplained.end());
-  for (const auto& queue : state.jobs.queues()) {
+  for (const auto& queue : state->jobs.queues()) {
     if (queue.empty()) continue;
     jobs.push_back(queue.front().job);
     const auto first = first_that_waits(state, queue);
@@ -67,6 +66,36 @@ std::vector<JobId> to_explain(State& state) {
 }
 
 }  // namespace
+
+// From the most urgent job downwards, each lends its priority to all that it waits for and that
+// nobody more urgent has reached.
+std::map<JobId, int> effective_priorities(const WaitsFor& graph, std::vector<Urgency> jobs) {
+  std::ranges::stable_sort(jobs, std::ranges::greater{}, &Urgency::priority);
+  std::map<JobId, int> effective;
+  for (const Urgency& urgency : jobs) effective[urgency.job] = urgency.priority;
+  std::vector<bool> reached(graph.nodes().size(), false);
+  std::vector<std::size_t> open;
+  for (const Urgency& urgency : jobs) {
+    const std::size_t start = graph.index_of(urgency.job);
+    if (start == graph.nodes().size() || reached[start]) continue;
+    reached[start] = true;
+    open.push_back(start);
+    while (!open.empty()) {
+      const std::size_t node = open.back();
+      open.pop_back();
+      if (const auto* job = std::get_if<JobId>(&graph.nodes()[node])) {
+        const auto it = effective.find(*job);
+        if (it != effective.end()) it->second = std::max(it->second, urgency.priority);
+      }
+      for (std::size_t first : graph.first_of(node)) {
+        if (reached[first]) continue;
+        reached[first] = true;
+        open.push_back(first);
+      }
+    }
+  }
+  return effective;
+}
 
 std::optional<JobId> any_aged(const State& state) {
   if (has_rounds(state)) return std::nullopt;
@@ -82,9 +111,8 @@ std::vector<Turns::Aged> Turns::aged_jobs() const {
   std::vector<Aged> aged;
   if (has_rounds(state_)) return aged;
   const JobBook& jobs = state_.jobs;
-  for (const auto& queue : jobs.queues()) {
-    if (queue.empty() || !is_aged(state_, jobs.at(queue.front()))) continue;
-    aged.push_back({queue.front().job, {}});
+  for (const Step& head : jobs.heads()) {
+    if (is_aged(state_, head)) aged.push_back({head.id.job, {}});
   }
   if (aged.empty()) return aged;
   std::ranges::sort(
@@ -122,9 +150,8 @@ std::optional<JobId> Turns::held_back_by(const Step& step) const {
 std::map<JobId, int> Turns::urgencies() const {
   if (state_.jobs.all_as_urgent()) return {};
   std::vector<Urgency> jobs;
-  for (JobId id : state_.jobs.active()) {
-    const Step& step = state_.jobs.at(id);
-    if (step.is_waiting()) jobs.push_back({id, step.job->terms.priority});
+  for (const Step& step : state_.jobs.of(state_.jobs.active())) {
+    if (step.is_waiting()) jobs.push_back({step.id.job, step.job->terms.priority});
   }
   return effective_priorities(waits_for(state_), std::move(jobs));
 }
@@ -163,21 +190,21 @@ std::optional<JobId> Turns::next() const {
 }
 
 // What is not the first of an arm waits for the one before it, as long as that is the same.
-Turns explain_waits(State& state) {
+Turns explain_waits(Transitions& state) {
   Turns turns(state);
   for (JobId id : to_explain(state)) {
-    Step& step = state.jobs.at(id);
+    const Step& step = state->jobs.at(id);
     const bool waits = step.is_waiting();
     if (!waits && step.in<Admitted>() == nullptr) continue;
     const auto closed = waits ? closed_gate(turns, step) : first_closed(state, step, blocks_start);
     turns.has_found(id, closed.has_value());
-    if (closed && closed->gate.starts_age && !step.ages_from) {
-      step.ages_from = {state.now, state.clock()};
+    if (closed && closed->gate.starts_age) {
+      state.jobs().begin_age(step, {state->now, state->clock()});
     }
     if (closed) {
-      state.jobs.set_waits(step, closed->waits.all());
+      state.jobs().set_waits(step, closed->waits.all());
     } else if (waits) {  // is checked next; until then it waits for what its last check found
-      state.jobs.set_waits(step, step.judgement().found);
+      state.jobs().set_waits(step, step.judgement().found);
     }
   }
   return turns;

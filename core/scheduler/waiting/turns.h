@@ -6,12 +6,23 @@
 #include <vector>
 
 #include "core/deadlock/waits_for.h"
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
+struct Urgency {
+  JobId job;
+  int priority;
+};
+
+// Returns effective priorities (priority inheritance): for each of `jobs`, the largest of its own
+// priority and the priorities of all jobs that wait for it in `graph`, directly or through others.
+// Jobs of the graph that are not in `jobs` only pass priorities on. O(n log n).
+[[nodiscard]] std::map<JobId, int> effective_priorities(const WaitsFor& graph,
+                                                        std::vector<Urgency> jobs);
+
 // Decides whose turn it is: paused jobs first, then the larger effective priority
-// (priority_inheritance.h), then the earlier job. A job is aged when it has waited for
+// (effective_priorities()), then the earlier job. A job is aged when it has waited for
 // scheduling.aging since it was first in conflict or without a place. An aged job holds back other
 // jobs (README.md, Aging). It does not hold back jobs that must precede it or earlier jobs with a
 // larger priority. It holds back none while it waits for an arm that no job moves, for an object or
@@ -50,6 +61,6 @@ class Turns {
 
 // Updates the published waits of all jobs for which they may have changed, to the first blocking
 // condition. Returns the turns, which are valid until the state changes.
-Turns explain_waits(State& state);
+Turns explain_waits(Transitions& state);
 
 }  // namespace armloom

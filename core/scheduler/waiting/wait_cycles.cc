@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/waiting/gates.h"
@@ -24,9 +22,7 @@ JobId next_on(const WaitCycle& ring, std::size_t i) { return ring[(i + 1) % ring
 // Those whose waits may close a ring: every other job waits behind these.
 std::vector<JobId> first_jobs(const State& state) {
   std::vector<JobId> first = first_undecided(state);
-  for (const auto& queue : state.jobs.queues()) {
-    if (!queue.empty()) first.push_back(queue.front().job);
-  }
+  for (const Step& head : state.jobs.heads()) first.push_back(head.id.job);
   return first;
 }
 
@@ -40,39 +36,38 @@ bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
   });
 }
 
-void untell(State& state, const WaitCycle& ring) {
+void untell(Transitions& state, const WaitCycle& ring) {
   for (JobId id : ring) {
-    if (!state.jobs.is_active(id)) continue;
-    Step& step = state.jobs.at(id);
+    if (!state->jobs.is_active(id)) continue;
+    const Step& step = state->jobs.at(id);
     const auto* braking = step.in<Braking>();
     const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
                              braking->after.reason == Reason::deadlock;
     if (ends_for_it) continue;  // it names the ring when it has come to rest
-    state.jobs.change(step).ring.clear();
-    state.jobs.changed(step);
+    state.jobs().set(step, with(*step.job, &Job::ring, {}));
   }
 }
 
 // An arm that is aside for the sake of another one of the ring comes back first.
-bool comes_back(State& state, const WaitCycle& ring) {
-  for (JobId id : ring) {
-    Step& step = state.jobs.at(id);
-    if (!lets_another_pass(state.jobs, step) || !is_on(ring, *step.job->errand.lets_pass)) continue;
-    state.jobs.change(step).errand.lets_pass.reset();
-    state.lanes.renew_later();
+bool comes_back(Transitions& state, const WaitCycle& ring) {
+  for (const Step& step : state->jobs.of(ring)) {
+    if (!lets_another_pass(state->jobs, step) || !is_on(ring, *step.job->errand.lets_pass))
+      continue;
+    state.let_pass(step, std::nullopt);
     return true;
   }
   return false;
 }
 
 // One that is brought to where it begins needs no other job to bring its arm there.
-bool goes_before_open_arm(State& state, const WaitCycle& ring) {
+bool goes_before_open_arm(Transitions& state, const WaitCycle& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    Step& step = state.jobs.at(ring[i]);
+    const Step& step = state->jobs.at(ring[i]);
     const auto open = may_go_first(state, step);
     if (!step.is_brought_to_start() || open != next_on(ring, i)) continue;
-    step.approaches.ahead_of.insert(*open);
-    state.jobs.explain(step);
+    Approaches approaches = step.approaches;
+    approaches.ahead_of.insert(*open);
+    state.jobs().set(step, std::move(approaches));
     return true;
   }
   return false;
@@ -91,13 +86,13 @@ bool is_asked(const State& state, const WaitCycle& ring) {
 }
 
 // Whether one of the ring may have another way: they are asked one by one, the last one first.
-bool goes_around(State& state, const WaitCycle& ring) {
+bool goes_around(Transitions& state, const WaitCycle& ring) {
   if (is_asked(state, ring)) return true;
   WaitCycle from_last = ring;
   std::ranges::sort(from_last, std::greater<>());
   for (JobId id : from_last) {
-    if (!may_go_around(state, state.jobs.at(id))) continue;
-    ask_for_another_way(state, state.jobs.at(id), AnotherWay::Cause::blocked);
+    if (!may_go_around(state, state->jobs.at(id))) continue;
+    ask_for_another_way(state, state->jobs.at(id), AnotherWay::Cause::blocked);
     return true;
   }
   return false;
@@ -105,18 +100,17 @@ bool goes_around(State& state, const WaitCycle& ring) {
 
 }  // namespace
 
-void WaitCycles::name(State& state) {
+void WaitCycles::name(Transitions& state) {
   for (WaitCycle& ring : find_wait_cycles(waits_for(state, first_jobs(state)))) {
     const bool told = std::ranges::any_of(named_, [&](const Named& named) {
       return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
     });
     if (told) continue;
-    Named named{.ring = ring, .epoch = state.scene_epoch, .in_turn = {}};
+    Named named{.ring = ring, .epoch = state->scene_epoch, .in_turn = {}};
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      Step& step = state.jobs.at(ring[i]);
+      const Step& step = state->jobs.at(ring[i]);
       if (!is_found_in_the_way(state, step, next_on(ring, i))) named.in_turn.push_back(ring[i]);
-      state.jobs.change(step).ring = beginning_with(ring[i], ring);
-      state.jobs.changed(step);
+      state.jobs().set(step, with(*step.job, &Job::ring, beginning_with(ring[i], ring)));
     }
     named_.push_back(std::move(named));
   }
@@ -138,7 +132,7 @@ bool WaitCycles::stands_still(const State& state, const Named& named) const {
   });
 }
 
-void WaitCycles::settle(State& state) {
+void WaitCycles::settle(Transitions& state) {
   for (Named& named : std::exchange(named_, {})) {
     const bool stood = stands_still(state, named);
     if (stood &&
@@ -182,22 +176,22 @@ std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& 
 
 // Returns false if the ring is left to its timeouts. An approach fails together with its job,
 // because another approach would close the same ring.
-bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
+bool WaitCycles::resolve(Transitions& state, const WaitCycle& ring) {
   if (comes_back(state, ring)) return true;
   const auto id = gives_way(state, ring);
   if (!id) return false;
-  Step& last = state.jobs.at(approached_job(state, *id).value_or(*id));
-  state.jobs.change(last).ring = state.jobs.at(*id).job->ring;
+  const Step& last = state->jobs.at(approached_job(state, *id).value_or(*id));
+  state.jobs().set(last, with(*last.job, &Job::ring, state->jobs.at(*id).job->ring));
   keep_those_behind(state, last);
   for (ArmId arm : last.trajectory->arms()) {
     if (last.job->system_job) break;
-    lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.scene_epoch});
+    lost_.insert_or_assign(arm, Lost{state->arms.came_by(arm), state->scene_epoch});
   }
   const AfterStop fails{AfterStop::Then::fail, Reason::deadlock};
   for (JobId approach : approaches_of(state, last)) {
-    give_up(state, state.jobs.at(approach), fails);
+    state.give_up(state->jobs.at(approach), fails);
   }
-  give_up(state, last, fails);
+  state.give_up(last, fails);
   return true;
 }
 
@@ -213,7 +207,7 @@ std::optional<YieldTrial> WaitCycles::next_yield(const State& state) const {
   return std::nullopt;
 }
 
-void WaitCycles::has_opened(State& state, JobId before) {
+void WaitCycles::has_opened(Transitions& state, JobId before) {
   std::erase_if(named_, [&](const Named& named) {
     const bool opened = is_on(named.ring, before);
     if (opened) untell(state, named.ring);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/deadlock/waits_for.h"
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 #include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
@@ -27,16 +27,16 @@ class WaitCycles {
  public:
   // Finds new cycles and publishes them in their jobs. They are resolved in a later step, so that
   // clients see them.
-  void name(State& state);
+  void name(Transitions& state);
   // Resolves the cycles published in earlier steps.
-  void settle(State& state);
+  void settle(Transitions& state);
   [[nodiscard]] bool is_one_to_settle() const;
 
   // Returns the first possible retreat of an arm in one of the cycles.
   [[nodiscard]] std::optional<YieldTrial> next_yield(const State& state) const;
   // Call when an arm retreats before the job `before` of its queue. The cycles that contain this
   // job are open, and are dropped.
-  void has_opened(State& state, JobId before);
+  void has_opened(Transitions& state, JobId before);
 
  private:
   struct Named {
@@ -54,7 +54,7 @@ class WaitCycles {
   [[nodiscard]] bool stands_still(const State& state, const Named& named) const;
   [[nodiscard]] bool has_lost_one(const State& state, const Step& step) const;
   [[nodiscard]] std::optional<JobId> gives_way(const State& state, const WaitCycle& ring) const;
-  bool resolve(State& state, const WaitCycle& ring);
+  bool resolve(Transitions& state, const WaitCycle& ring);
 
   std::vector<Named> named_;  // published in an earlier step
   std::map<ArmId, Lost> lost_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
@@ -15,15 +14,15 @@
 namespace armloom {
 namespace {
 
-bool send_to_start(State& state, Step& head, ArmId arm) {
-  Configuration at = state.arms.rest();
+bool send_to_start(Transitions& state, const Step& head, ArmId arm) {
+  Configuration at = state->arms.rest();
   set_joints(at, *head.trajectory, head.trajectory->start());
-  const auto& joints = state.cell->arm(arm).joints;
+  const auto& joints = state->cell->arm(arm).joints;
   const Eigen::VectorXd to = joints_of(at, joints);
-  const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
+  const double speed = std::min(kApproachSpeed, state->cell->execution.velocity_scaling_factor);
   // An estimate until the path is planned.
   TrajectoryPtr way =
-      line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to, speed);
+      line_or_stay(*state->cell, joints, joints_of(state->arms.rest(), joints), to, speed);
   if (!way) return false;
   Submit job{.trajectory = std::move(way),
              .terms = {.backlog_timeout = head.job->terms.backlog_timeout,
@@ -36,20 +35,21 @@ bool send_to_start(State& state, Step& head, ArmId arm) {
 
 // Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
 // stand.
-bool goes_to_start(State& state, Step& head) {
+bool goes_to_start(Transitions& state, const Step& head) {
   if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
-  if (head.approaches.feasibility == Approaches::Feasibility::unknown) {
-    head.approaches.feasibility = Approaches::Feasibility::in_question;
-    state.jobs.explain(head);
+  using Feasibility = Approaches::Feasibility;
+  if (head.approaches.feasibility == Feasibility::unknown) {
+    state.jobs().set(head,
+                     with(head.approaches, &Approaches::feasibility, Feasibility::in_question));
     return true;
   }
-  ++head.approaches.tries;
+  state.jobs().set(head, with(head.approaches, &Approaches::tries, head.approaches.tries + 1));
   const std::vector<ArmId> arms = head.trajectory->arms();
   bool goes = false;
   for (ArmId arm : arms) {
-    if (!state.arms.begins_elsewhere(*state.cell, *head.trajectory, arm)) continue;
+    if (!state->arms.begins_elsewhere(*state->cell, *head.trajectory, arm)) continue;
     goes = send_to_start(state, head, arm) || goes;
   }
   return goes;
@@ -58,9 +58,7 @@ bool goes_to_start(State& state, Step& head) {
 }  // namespace
 
 std::optional<JobId> next_in_question(const State& state) {
-  for (const auto& queue : state.jobs.queues()) {
-    if (queue.empty()) continue;
-    const Step& head = state.jobs.at(queue.front());
+  for (const Step& head : state.jobs.heads()) {
     if (head.approaches.are_in_question() && is_at_head(state, head)) return head.id.job;
   }
   return std::nullopt;
@@ -70,8 +68,7 @@ std::vector<JobId> approaches_of(const State& state, const Step& step) {
   std::vector<JobId> approaches;
   if (step.approaches.tries == 0) return approaches;
   for (ArmId arm : step.trajectory->arms()) {
-    for (StepId id : state.jobs.queues()[arm]) {
-      const Step& own = state.jobs.at(id);
+    for (const Step& own : state.jobs.of(state.jobs.queues()[arm])) {
       if (own.job->errand.before == step.id.job && own.job->system_job && own.goal)
         approaches.push_back(own.id.job);
     }
@@ -87,27 +84,29 @@ std::optional<JobId> approached_job(const State& state, JobId approach) {
   return std::ranges::find(all, approach) != all.end() ? own.job->errand.before : std::nullopt;
 }
 
-void keep_those_behind(State& state, const Step& step) {
+void keep_those_behind(Transitions& state, const Step& step) {
   for (ArmId arm : step.trajectory->arms()) {
-    const auto next = state.jobs.queues().behind(step, arm);
-    if (next) state.jobs.at(*next).approaches.after_deadlock = true;
+    const auto next = state->jobs.queues().behind(step, arm);
+    if (!next) continue;
+    const Step& behind = state->jobs.at(*next);
+    state.jobs().set(behind, with(behind.approaches, &Approaches::after_deadlock, true));
   }
-  state.lanes.renew_later();
+  state.lanes().renew_later();
 }
 
 // The end of a job of several arms gives each of them a new head: hence until there are none.
-void fail_impossible_starts(State& state) {
-  const auto arms = static_cast<std::uint32_t>(state.cell->arms.size());
+void fail_impossible_starts(Transitions& state) {
+  const auto arms = static_cast<std::uint32_t>(state->cell->arms.size());
   for (std::uint32_t unchanged = 0, arm = 0; unchanged < arms; arm = (arm + 1) % arms) {
     ++unchanged;
-    const auto& queue = state.jobs.queues()[ArmId{arm}];
+    const auto& queue = state->jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
-    Step& head = state.jobs.at(queue.front());
+    const Step& head = state->jobs.at(queue.front());
     if (!head.is_waiting() || head.has_started() || !is_at_head(state, head)) continue;
     if (head.goal) continue;  // its way begins where the arm stands
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
-    if (head.job->is_held_over && state.arms.stop_of(head)) continue;
-    auto mismatch = state.arms.start_mismatch(*state.cell, *head.trajectory);
+    if (head.job->is_held_over && state->arms.stop_of(head)) continue;
+    auto mismatch = state->arms.start_mismatch(*state->cell, *head.trajectory);
     if (!mismatch) continue;
     unchanged = 0;
     if (begins_on_other_arm(state, head) || goes_to_start(state, head)) continue;
@@ -115,7 +114,7 @@ void fail_impossible_starts(State& state) {
       *mismatch += "; no path to its start: " + *head.approaches.refusal;
     }
     if (head.approaches.after_deadlock) keep_those_behind(state, head);
-    end(state, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
+    state.end(head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
   }
 }
 

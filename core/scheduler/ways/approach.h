@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -18,11 +18,11 @@ inline constexpr double kApproachSpeed = 0.25;
 
 // Handles jobs at the front of their queues whose arms do not rest at their start: adds a
 // move-to-start, changes to an alternative that begins there, or fails the job.
-void fail_impossible_starts(State& state);
+void fail_impossible_starts(Transitions& state);
 // Call when the job fails with Reason::deadlock, or fails because an earlier job did. The arms are
 // then moved to the start of their next jobs, as with MoveToStart::plan, so that these do not fail
 // too.
-void keep_those_behind(State& state, const Step& step);
+void keep_those_behind(Transitions& state, const Step& step);
 // Returns the first job at the front of its queues that must be checked for self-collisions before
 // its arms are moved to its start; nullopt if there is none.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);

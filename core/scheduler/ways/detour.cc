@@ -4,7 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/choosing.h"
 #include "core/scheduler/ways/goals.h"
 #include "core/scheduler/ways/path_requests.h"
@@ -29,15 +28,8 @@ TimePoint arrival(const State& state, const PassingOrders& orders) {
 
 // If nobody met it on its way.
 TimePoint soonest(const State& state, const Step& step, const PassingOrders& orders) {
-  const auto& motions = state.graph.motions();
-  const ArmId arm = step.goal->way().goal.arm;
-  Duration ready{};
-  for (std::size_t m = 0; m < std::min(motions.size(), orders.prediction.ends.size()); ++m) {
-    const auto& arms = motions[m].arms;
-    if (std::ranges::find(arms, arm) != arms.end())
-      ready = std::max(ready, orders.prediction.ends[m]);
-  }
-  return state.now + ready + state.time_for(*step.trajectory);
+  return state.now + free_at(state, step.goal->way().goal.arm, orders.prediction) +
+         state.time_for(*step.trajectory);
 }
 
 // From when to when of its own time the other motion is in the way there.
@@ -73,9 +65,9 @@ Configuration places_held(const State& state, const Step& step,
   return at;
 }
 
-void ask(State& state, Step& step) {
-  JobGoal& goal = *step.goal;
-  Detour& detour = *goal.detour;
+// Stores the detour and requests the next path for it.
+void ask(Transitions& state, const Step& step, Detour detour) {
+  const JobGoal& goal = *step.goal;
   PlanQuestion question{
       .goal = {.arm = goal.way().goal.arm,
                .to = Eigen::VectorXd(step.trajectory->goal()),
@@ -83,7 +75,8 @@ void ask(State& state, Step& step) {
       .at = detour.request.beside,
       .seed = step.id.job.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
       .budget = kDetourBudget};
-  send(state, step, detour.request, std::move(question));
+  detour.request = send(state, step, std::move(detour.request), std::move(question));
+  state.jobs().set(step, std::move(detour));
 }
 
 // Whether another one is worth the question.
@@ -92,18 +85,18 @@ bool goes_on(const Detour& detour) {
 }
 
 // Of those that were weighed. Whether that is another one than it had.
-bool go_by_best(State& state, Step& step) {
-  Detour& detour = *step.goal->detour;
+bool go_by_best(Transitions& state, const Step& step, Detour detour) {
+  const TrajectoryPtr best = detour.best;
   detour.is_weighed = false;
-  if (!detour.best || step.trajectory == detour.best) return false;
-  go_by(state, step, detour.best);
+  state.jobs().set(step, std::move(detour));
+  if (!best || step.trajectory == best) return false;
+  state.go_by(step, best);
   return true;
 }
 
 // It has been judged by another way. Whether it is to be judged once more: by a further one, or by
 // the best of them.
-bool rate(State& state, Step& step, TimePoint arrives) {
-  Detour& detour = *step.goal->detour;
+bool rate(Transitions& state, const Step& step, Detour detour, TimePoint arrives) {
   if (arrives != kNever && arrives + Choosing::kWorthwhile < detour.arrives) {
     detour.best = step.trajectory;
     detour.is_taken = true;
@@ -112,58 +105,63 @@ bool rate(State& state, Step& step, TimePoint arrives) {
   }
   const bool asks_on = goes_on(detour);
   // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
-  const bool is_another = go_by_best(state, step);
-  if (asks_on) ask(state, step);
+  const bool is_another = go_by_best(state, step, std::move(detour));
+  if (asks_on) ask(state, step, *step.goal->detour);
   return asks_on || is_another;
 }
 
 }  // namespace
 
-bool weighs_detour(State& state, Step& step, const std::vector<PairRegions>& regions,
+bool weighs_detour(Transitions& state, const Step& step, const std::vector<PairRegions>& regions,
                    const PassingOrders& orders) {
   if (!may_go_round(step)) return false;
-  auto& detour = step.goal->detour;
+  const auto& had = step.goal->detour;
   const TimePoint arrives = arrival(state, orders);
-  if (detour && std::exchange(detour->is_weighed, false)) return rate(state, step, arrives);
+  if (had && had->is_weighed) return rate(state, step, *had, arrives);
   const TimePoint soon_enough = soonest(state, step, orders) + kWaitWorthADetour;
-  if (arrives <= soon_enough || (detour && detour->request.tries >= kDetoursMax)) return false;
+  if (arrives <= soon_enough || (had && had->request.tries >= kDetoursMax)) return false;
   Configuration beside = places_held(state, step, regions);
   const bool is_as_tried =
-      detour && detour->request.asked_at >= state.scene_epoch && detour->request.beside == beside;
+      had && had->request.asked_at >= state->scene_epoch && had->request.beside == beside;
   if (is_as_tried) return false;
-  if (!detour) detour.emplace();
-  detour->request.beside = std::move(beside);
-  detour->best = step.trajectory;
-  detour->arrives = arrives;
-  detour->soon_enough = soon_enough;
-  ask(state, step);
+  Detour detour = had.value_or(Detour{});
+  detour.request.beside = std::move(beside);
+  detour.best = step.trajectory;
+  detour.arrives = arrives;
+  detour.soon_enough = soon_enough;
+  ask(state, step, std::move(detour));
   return true;
 }
 
-bool gives_detour_up(State& state, Step& step) {
+bool gives_detour_up(Transitions& state, const Step& step) {
   if (!may_go_round(step) || !step.goal->detour) return false;
-  Detour& detour = *step.goal->detour;
-  if (!std::exchange(detour.is_taken, false)) return go_by_best(state, step);
+  Detour detour = *step.goal->detour;
+  if (!std::exchange(detour.is_taken, false)) {
+    return go_by_best(state, step, std::move(detour));
+  }
   detour.best = nullptr;
   detour.is_weighed = false;
   detour.saves = {};
+  state.jobs().set(step, std::move(detour));
   forget_plan(state, step);
   return true;
 }
 
-void take_detour(State& state, Step& step, const PlanMade& answer) {
-  Detour& detour = *step.goal->detour;
-  state.jobs.explain(step);
+void take_detour(Transitions& state, const Step& step, const PlanMade& answer) {
+  Detour detour = *step.goal->detour;
+  detour.request.question.reset();
+  state.jobs().set(step, detour);
   if (!may_go_round(step)) return;
   const bool fits = answer.trajectory && detour.best &&
-                    detour.request.asked_at >= state.scene_epoch &&
+                    detour.request.asked_at >= state->scene_epoch &&
                     answer.trajectory->start().isApprox(detour.best->start());
-  const bool is_sooner = fits && state.now + state.time_for(*answer.trajectory) < detour.arrives;
+  const bool is_sooner = fits && state->now + state->time_for(*answer.trajectory) < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.
-  if (fits && !is_sooner && goes_on(detour)) return ask(state, step);
-  if (!is_sooner) return (void)go_by_best(state, step);
+  if (fits && !is_sooner && goes_on(detour)) return ask(state, step, std::move(detour));
+  if (!is_sooner) return (void)go_by_best(state, step, std::move(detour));
   detour.is_weighed = true;
-  go_by(state, step, answer.trajectory);
+  state.jobs().set(step, std::move(detour));
+  state.go_by(step, answer.trajectory);
 }
 
 }  // namespace armloom

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 #include "core/precedence/passing_orders.h"
 
 namespace armloom {
@@ -20,13 +20,14 @@ inline constexpr int kDetoursMax = 4;                   // for one plan of a job
 // Takes the job's conflict regions and the policy's answer, `orders`. Returns true if the job must
 // be checked once more: with another path, which was requested (PlanMotion), or with the best path
 // so far.
-[[nodiscard]] bool weighs_detour(State& state, Step& step, const std::vector<PairRegions>& regions,
+[[nodiscard]] bool weighs_detour(Transitions& state, const Step& step,
+                                 const std::vector<PairRegions>& regions,
                                  const PassingOrders& orders);
 // Call when the job would be deferred: drops its detour, because a detour is only good for an
 // immediate start. Returns true if the job must be checked again with another path, or planned
 // again.
-[[nodiscard]] bool gives_detour_up(State& state, Step& step);
+[[nodiscard]] bool gives_detour_up(Transitions& state, const Step& step);
 // Handles the planner's answer for the job's detour.
-void take_detour(State& state, Step& step, const PlanMade& answer);
+void take_detour(Transitions& state, const Step& step, const PlanMade& answer);
 
 }  // namespace armloom

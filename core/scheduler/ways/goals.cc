@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/joints_elsewhere.h"
@@ -31,8 +30,7 @@ bool comes_to_its_end(const Step& step) { return step.in<Queued>() == nullptr; }
 
 // Where the arm comes to rest by what is admitted.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
-  for (StepId id : state.jobs.queues()[arm]) {
-    const Step& step = state.jobs.at(id);
+  for (const Step& step : state.jobs.of(state.jobs.queues()[arm])) {
     if (comes_to_its_end(step)) follow_to_end(at, *state.cell, arm, *step.trajectory);
   }
 }
@@ -53,9 +51,8 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
   const auto& queue = state.jobs.queues()[arm];
   const bool is_taken = step.goal->way().goal.arm == arm;
   std::size_t before = is_taken ? queue.size() : place_on(state, step, arm);
-  for (StepId id : queue) {
-    if (before-- == 0 || id == step.id) break;
-    const Step& other = state.jobs.at(id);
+  for (const Step& other : state.jobs.of(queue)) {
+    if (before-- == 0 || other.id == step.id) break;
     if (other.has_open_arm()) continue;
     if (other.is_unplanned()) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -79,8 +76,7 @@ PlanQuestion question_about(const State& state, const Step& step, const GoalWay&
     const bool was_passed_there =
         way.request.beside.size() != 0 && is_as_asked(state, way, at, arm);
     if (was_passed_there || is_found_in_the_way(state, step, arm)) continue;
-    for (StepId id : state.jobs.queues()[arm]) {
-      const Step& other = state.jobs.at(id);
+    for (const Step& other : state.jobs.of(state.jobs.queues()[arm])) {
       const bool goes_before = other.job->turn < turn && !comes_to_its_end(other) &&
                                other.knows_its_end() && !other.has_open_arm();
       if (goes_before) follow_to_end(at, *state.cell, arm, *other.trajectory);
@@ -109,16 +105,15 @@ bool is_to_pass_another_place(const State& state, const Step& step, const GoalWa
   return false;
 }
 
-void ask(State& state, Step& step, GoalWay& way, const Configuration& at) {
+void ask(Transitions& state, const Step& step, std::size_t which, const Configuration& at) {
+  GoalWay way = step.goal->ways[which];
   PlanQuestion question = question_about(state, step, way, at);  // by what was found of it
-  if (std::exchange(step.goal->is_planned, false)) {
-    state.lanes.renew_later();
-    ++state.version;
-  }
+  state.set_planned(step, false);
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
-  send(state, step, way.request, std::move(question));
+  way.request = send(state, step, std::move(way.request), std::move(question));
+  state.jobs().set(step, which, std::move(way));
 }
 
 enum class Answered {
@@ -130,36 +125,45 @@ enum class Answered {
 };
 
 // What is not known of the way, or is out of date, is asked.
-Answered answer_of(State& state, Step& step, GoalWay& way) {
+Answered answer_of(Transitions& state, const Step& step, std::size_t which) {
+  const GoalWay& way = step.goal->ways[which];
   if (way.request.question) return Answered::not_yet;
   const auto at = at_its_turn(state, step, way);
   if (!at) return Answered::not_asked;
   if (fits(state, way, *at)) {
     if (!way.is_planned && !way.stands_in) return Answered::refused;
-    way.request.tries = 0;
+    if (way.request.tries != 0) {
+      GoalWay answered = way;
+      answered.request.tries = 0;
+      state.jobs().set(step, which, std::move(answered));
+    }
     if (way.stands_in) return Answered::stands_in;
     if (!is_to_pass_another_place(state, step, way, *at)) return Answered::planned;
   }
   if (way.request.tries < kPlansMax) {
-    if (way.request.beside.size() != 0 && way.is_planned) step.goal->detour.reset();
-    ask(state, step, way, *at);
+    const bool was_planned = way.request.beside.size() != 0 && way.is_planned;
+    if (was_planned) state.jobs().set(step, std::optional<Detour>());
+    ask(state, step, which, *at);
     return Answered::not_yet;
   }
-  way.is_planned = false;
-  way.refusal = "planned " + std::to_string(kPlansMax) +
-                " times, and each plan was out of date: the arm had moved or the scene had changed";
+  GoalWay refused = way;
+  refused.is_planned = false;
+  refused.refusal = "planned " + std::to_string(kPlansMax) +
+                    " times, and each plan was out of date: the arm had moved or the scene had "
+                    "changed";
+  state.jobs().set(step, which, std::move(refused));
   return Answered::refused;
 }
 
 // All of them; where one is planned, the job can be judged. An arm on which it cannot be planned
 // yet does not keep it from going on another one: the jobs ahead of it there may wait for this one.
-Answered answer_of(State& state, Step& step) {
-  JobGoal& goal = *step.goal;
+Answered answer_of(Transitions& state, const Step& step) {
+  const JobGoal& goal = *step.goal;
   bool all = true, any_stands_in = false;
   std::optional<std::size_t> planned, not_asked;
   for (std::size_t k = 0; k < goal.ways.size(); ++k) {
     if (!step.has_open_arm() && k != goal.taken) continue;
-    const Answered answer = answer_of(state, step, goal.ways[k]);
+    const Answered answer = answer_of(state, step, k);
     if (answer == Answered::not_yet) all = false;
     if (answer == Answered::not_asked && (!not_asked || k == goal.taken)) not_asked = k;
     if (answer == Answered::stands_in) any_stands_in = true;
@@ -171,10 +175,7 @@ Answered answer_of(State& state, Step& step) {
   if (not_asked && !(planned && has_turn_on_some_arm(state, step))) return Answered::not_asked;
   if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
   if (step.has_open_arm() && *planned != goal.taken) take_alternative(state, step, *planned);
-  if (!std::exchange(goal.is_planned, true)) {
-    state.lanes.renew_later();
-    ++state.version;
-  }
+  state.set_planned(step, true);
   return Answered::planned;
 }
 
@@ -183,8 +184,7 @@ Answered answer_of(State& state, Step& step) {
 bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
-  for (JobId id : state.jobs.undecided()) {
-    const Step& other = state.jobs.at(id);
+  for (const Step& other : state.jobs.of(state.jobs.undecided())) {
     const bool is_put_off = other.state() == JobState::backlogged;
     if (other.has_open_arm() && !is_put_off && other.job->turn < step.job->turn) ++before;
   }
@@ -192,11 +192,11 @@ bool is_one_of_the_first(const State& state, const Step& step, std::size_t place
 }
 
 // The first of the arm's jobs that is to fail; null: none.
-Step* plan_lane(State& state, ArmId arm) {
+const Step* plan_lane(Transitions& state, ArmId arm) {
   // As they stand now: a job may be taken to go by another arm meanwhile.
-  const auto queue = state.jobs.queues()[arm];
+  const auto queue = state->jobs.queues()[arm];
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
-    Step& step = state.jobs.at(queue[i]);
+    const Step& step = state->jobs.at(queue[i]);
     if (!step.goal || step.in<Queued>() == nullptr) continue;
     // What comes of it is seen when it is answered.
     if (step.is_replanned_now()) return nullptr;
@@ -220,45 +220,39 @@ std::string why_none(const State& state, const Step& step) {
 
 }  // namespace
 
-bool plan_goals(State& state) {
+bool plan_goals(Transitions& state) {
   bool any_failed = false;
-  if (!state.jobs.has_goals()) return any_failed;
-  for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
-    while (Step* step = plan_lane(state, ArmId{arm})) {
-      end(state, *step, JobState::failed, Reason::no_plan, why_none(state, *step));
+  if (!state->jobs.has_goals()) return any_failed;
+  for (std::uint32_t arm = 0; arm < state->cell->arms.size(); ++arm) {
+    while (const Step* step = plan_lane(state, ArmId{arm})) {
+      state.end(*step, JobState::failed, Reason::no_plan, why_none(state, *step));
       any_failed = true;
     }
   }
   return any_failed;
 }
 
-void forget_plan(State& state, Step& step) {
-  GoalWay& way = step.goal->way();
+void forget_plan(Transitions& state, const Step& step) {
+  GoalWay way = step.goal->way();
   way.is_planned = false;
   way.request.beside = {};  // fits nowhere
-  step.goal->is_planned = false;
-  state.lanes.renew_later();
-  state.jobs.explain(step);
-  ++state.version;
+  state.jobs().set(step, step.goal->taken, std::move(way));
+  state.set_planned(step, false);
 }
 
-void take_goal_plan(State& state, Step& step, GoalWay& way, const PlanMade& answer) {
-  JobGoal& goal = *step.goal;
-  if (!answer.trajectory) {
+void take_goal_plan(Transitions& state, const Step& step, std::size_t which,
+                    const PlanMade& answer) {
+  GoalWay way = step.goal->ways[which];
+  way.request.question.reset();
+  if (answer.trajectory) {
+    way.is_planned = true;
+    way.goes_through = answer.goes_through;
+  } else {
     way.refusal = answer.why;
     way.stands_in = answer.stands_in;
-    state.jobs.explain(step);
-    return;
   }
-  way.is_planned = true;
-  way.goes_through = answer.goes_through;
-  WaitingLeg leg = state.arms.leg_of(*state.cell, answer.step, *answer.trajectory);
-  const auto which = static_cast<std::size_t>(&way - goal.ways.data());
-  if (step.has_open_arm()) {
-    state.jobs.set_alternative(step, which, answer.trajectory, std::move(leg));
-  } else if (which == goal.taken) {
-    state.jobs.set_motion(step, answer.trajectory, std::move(leg));
-  }
+  state.jobs().set(step, which, std::move(way));
+  if (answer.trajectory) state.take_plan(step, which, answer.trajectory);
 }
 
 }  // namespace armloom

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
-
-#include "core/jobs/state.h"
+#include "core/jobs/transitions.h"
 
 namespace armloom {
 
@@ -20,16 +18,17 @@ namespace armloom {
 // Requests a plan (PlanMotion) for each job with a goal that has none, or whose plan is out of date
 // because its start or the scene has changed. A job fails if kPlansMax plans in succession are out
 // of date. Returns true if a job failed, because later jobs then begin elsewhere.
-[[nodiscard]] bool plan_goals(State& state);
+[[nodiscard]] bool plan_goals(Transitions& state);
 inline constexpr int kPlansMax = 5;
 // Number of jobs per arm queue for which paths are planned.
 inline constexpr std::size_t kPlannedAhead = 16;
 
 // Discards a valid plan, so that the job is planned again.
-void forget_plan(State& state, Step& step);
+void forget_plan(Transitions& state, const Step& step);
 
 // Handles the planner's answer for one of the job's goals. If the plan is out of date, plan_goals()
 // requests another.
-void take_goal_plan(State& state, Step& step, GoalWay& way, const PlanMade& answer);
+void take_goal_plan(Transitions& state, const Step& step, std::size_t which,
+                    const PlanMade& answer);
 
 }  // namespace armloom

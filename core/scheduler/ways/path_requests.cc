@@ -4,36 +4,41 @@
 
 #include "core/scheduler/ways/detour.h"
 #include "core/scheduler/ways/goals.h"
-#include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
+#include "core/scheduler/yielding/yield_moves.h"
 
 namespace armloom {
 
-void send(State& state, Step& step, PathRequest& request, PlanQuestion question) {
-  request.question = ++step.asking.plans;
+PathRequest send(Transitions& state, const Step& step, PathRequest request, PlanQuestion question) {
+  Asking asking = step.asking;
+  request.question = ++asking.plans;
+  state.jobs().set(step, asking);
   request.beside = question.at;
-  request.asked_at = state.version;
+  request.asked_at = state->version();
   ++request.tries;
-  state.decided.effects.push_back(PlanMotion{step.id, *request.question, std::move(question)});
+  state.effect(PlanMotion{step.id, *request.question, std::move(question)});
+  return request;
 }
 
-void take_plan(State& state, const PlanMade& answer, WaitCycles& cycles) {
-  Step* step = state.jobs.find(answer.step);
+void take_plan(Transitions& state, const PlanMade& answer, WaitCycles& cycles) {
+  const Step* step = state->jobs.find(answer.step);
   if (step == nullptr || step->has_ended()) return;
   if (step->goal) {
-    for (GoalWay& way : step->goal->ways) {
-      if (way.request.takes(answer.question)) return take_goal_plan(state, *step, way, answer);
+    for (std::size_t k = 0; k < step->goal->ways.size(); ++k) {
+      if (step->goal->ways[k].request.question == answer.question)
+        return take_goal_plan(state, *step, k, answer);
     }
-    auto& detour = step->goal->detour;
-    if (detour && detour->request.takes(answer.question)) return take_detour(state, *step, answer);
+    const auto& detour = step->goal->detour;
+    if (detour && detour->request.question == answer.question)
+      return take_detour(state, *step, answer);
   }
-  if (step->another_way && step->another_way->request.takes(answer.question)) {
+  if (step->another_way && step->another_way->request.question == answer.question) {
     if (take_other_way(state, *step, answer)) cycles.has_opened(state, step->id.job);
     return;
   }
-  for (auto& [arm, tried] : step->yields) {
-    if (tried.planned.request.takes(answer.question))
-      return take_way_aside(state, arm, tried, answer);
+  for (const auto& [arm, tried] : step->yields) {
+    if (tried.planned.request.question == answer.question)
+      return take_way_aside(state, *step, arm, answer);
   }
 }
 

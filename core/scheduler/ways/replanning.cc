@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/motion_questions.h"
@@ -72,18 +71,11 @@ bool fits(const State& state, const Step& step) {
   return other.request.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
 }
 
-void ask_at_rest(State& state, Step& step) {
-  AnotherWay& other = *step.another_way;
-  if (!step.is_waiting() || other.request.question) return;
-  send(state, step, other.request, question_about(state, step));
-}
-
-void expire(State& state, Step& step, const std::string& why) {
-  const char* where = step.has_started() ? " on its path" : " in the backlog";
-  give_up(state, step,
-          {AfterStop::Then::fail, Reason::backlog_timeout,
-           "waited " + seconds_text(*step.job->terms.backlog_timeout) + where +
-               "; no other path: " + why});
+void ask_at_rest(Transitions& state, const Step& step) {
+  if (!step.is_waiting() || step.another_way->request.question) return;
+  AnotherWay other = *step.another_way;
+  other.request = send(state, step, std::move(other.request), question_about(state, step));
+  state.jobs().set(step, std::move(other));
 }
 
 }  // namespace
@@ -97,61 +89,59 @@ std::optional<std::string> why_not_replanned(const Step& step) {
   return "it ends where it begins, so a new path would drop all of its motion";
 }
 
-void ask_for_another_way(State& state, Step& step, AnotherWay::Cause cause) {
+void ask_for_another_way(Transitions& state, const Step& step, AnotherWay::Cause cause) {
   if (step.is_unplanned() || step.is_replanned_now()) return;
-  if (step.has_open_arm()) state.jobs.decide_arm(step);
-  if (!step.another_way) step.another_way.emplace();
-  step.another_way->cause = cause;
-  if (cause == AnotherWay::Cause::client) step.another_way->request.tries = 0;
-  step.another_way->is_open = true;
-  step.another_way->refusal.reset();
-  state.jobs.being_replanned().insert(step.id.job);
-  if (step.has_authority()) brake(state, step, {});
+  if (step.has_open_arm()) state.jobs().decide_arm(step);
+  AnotherWay other = step.another_way.value_or(AnotherWay{});
+  other.cause = cause;
+  if (cause == AnotherWay::Cause::client) other.request.tries = 0;
+  other.is_open = true;
+  other.refusal.reset();
+  state.jobs().set(step, std::move(other));
+  if (step.has_authority()) state.brake(step, {});
   ask_at_rest(state, step);
-  state.jobs.explain(step);
-  state.jobs.changed(step);
 }
 
-void plan_other_ways(State& state) {
-  for (JobId id : std::set<JobId>(state.jobs.being_replanned())) {
-    Step* step = state.jobs.find(id);
-    if (step == nullptr || step->has_ended()) {
-      state.jobs.being_replanned().erase(id);
-      continue;
-    }
-    if (step->in<Admitted>() != nullptr) brake(state, *step, {});  // it had not moved
-    ask_at_rest(state, *step);
+void plan_other_ways(Transitions& state) {
+  for (JobId id : std::set<JobId>(state->jobs.being_replanned())) {
+    const Step& step = state->jobs.at(id);
+    if (step.in<Admitted>() != nullptr) state.brake(step, {});  // it had not moved
+    ask_at_rest(state, step);
   }
 }
 
-bool take_other_way(State& state, Step& step, const PlanMade& answer) {
-  if (!step.is_replanned_now()) return false;
-  AnotherWay& other = *step.another_way;
-  if (!step.is_waiting()) return false;  // it is braking, and asks again
+bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer) {
+  AnotherWay other = *step.another_way;
+  other.request.question.reset();
+  state.jobs().set(step, other);
+  if (!other.is_open || !step.is_waiting()) return false;  // if it is braking, it asks again
   const bool is_fit = fits(state, step);
   if (!is_fit && other.request.tries < kReplansMax) {
     ask_at_rest(state, step);
     return false;
   }
   other.is_open = false;
-  state.jobs.being_replanned().erase(step.id.job);
-  state.jobs.explain(step);
-  state.jobs.changed(step);
-  if (answer.trajectory && is_fit) {
+  const bool is_taken = answer.trajectory && is_fit;
+  if (is_taken) {
     ++other.done;
-    set_out_anew(state, step, answer.trajectory);
+  } else {
+    other.refusal =
+        is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
+  }
+  state.jobs().set(step, other);
+  if (is_taken) {
+    state.set_out_anew(step, answer.trajectory);
     if (step.goal) {  // it is the plan to its goal from now on
-      GoalWay& way = step.goal->way();
+      GoalWay way = step.goal->way();
       way.request.beside = other.request.beside;
       way.request.asked_at = other.request.asked_at;
-      step.goal->detour.reset();
+      state.jobs().set(step, step.goal->taken, std::move(way));
+      state.jobs().set(step, std::optional<Detour>());
     }
-    return true;
+  } else if (other.cause == AnotherWay::Cause::timeout) {
+    expire(state, step, "; no other path: " + *other.refusal);
   }
-  other.refusal =
-      is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
-  if (other.cause == AnotherWay::Cause::timeout) expire(state, step, *other.refusal);
-  return false;
+  return is_taken;
 }
 
 bool may_go_around(const State& state, const Step& step) {
@@ -166,9 +156,8 @@ bool may_go_around(const State& state, const Step& step) {
   return step.another_way->request.tries < kReplansMax && !is_as_tried;
 }
 
-bool goes_around_idle_arm(State& state) {
-  for (JobId id : state.jobs.past_queue()) {
-    Step& step = state.jobs.at(id);
+bool goes_around_idle_arm(Transitions& state) {
+  for (const Step& step : state->jobs.past_queue()) {
     const std::vector<Wait>* waits = known_waits(state, step);
     if (waits == nullptr || step.is_replanned_now()) continue;
     const bool for_idle_arm =
@@ -180,7 +169,7 @@ bool goes_around_idle_arm(State& state) {
   return false;
 }
 
-bool goes_on_after_timeout(State& state, Step& step) {
+bool goes_on_after_timeout(Transitions& state, const Step& step) {
   if (step.is_replanned_now()) return true;
   if (step.job->terms.on_timeout != OnTimeout::replan || step.is_unplanned() ||
       why_not_replanned(step))
@@ -188,6 +177,12 @@ bool goes_on_after_timeout(State& state, Step& step) {
   if (step.another_way && step.another_way->request.tries >= kReplansMax) return false;
   ask_for_another_way(state, step, AnotherWay::Cause::timeout);
   return true;
+}
+
+void expire(Transitions& state, const Step& step, const std::string& why) {
+  const char* where = step.has_started() ? " on its path" : " in the backlog";
+  state.give_up(step, {AfterStop::Then::fail, Reason::backlog_timeout,
+                       "waited " + seconds_text(*step.job->terms.backlog_timeout) + where + why});
 }
 
 }  // namespace armloom

@@ -7,15 +7,20 @@ namespace armloom {
 // Adds a job of the server that helps `told.blocked_job`, with its priority, and tells of it. It
 // goes before the job `before`, otherwise at the end of the arm's queue. `goes`: the retreat from
 // which it returns, for the sake of `before`. Sets the ids.
-JobId add_own(State& state, YieldMove told, Submit job, std::optional<JobId> before,
+JobId add_own(Transitions& state, YieldMove told, Submit job, std::optional<JobId> before,
               std::optional<JobId> goes = {});
 
 // Adds the retreat as a job. If the arm's next job is in the deadlock cycle and begins where the
 // arm is now, also adds a job that brings the arm back. A next job with a goal begins where the
 // retreat ends, and lets the blocked job pass first.
-void send_aside(State& state, const YieldTrial& move);
+void send_aside(Transitions& state, const YieldTrial& move);
 // Adds jobs that first return arms to where clients left them (WaysBack), before the new job of a
 // client. `rest`: where the earlier jobs leave all joints.
-void bring_back(State& state, const Submit& job, Configuration rest);
+void bring_back(Transitions& state, const Submit& job, Configuration rest);
+
+// Handles the server's own waiting jobs (retreats, returns, moves-to-start) whose client job has
+// ended. If the next client job of the arm relies on such a job, it now helps that job. Otherwise
+// it is canceled, so that no job waits for it.
+void pass_errands_on(Transitions& state);
 
 }  // namespace armloom

@@ -8,6 +8,7 @@
 #include "core/model/cell.h"
 #include "core/scheduler/motion_questions.h"
 #include "core/scheduler/ways/approach.h"
+#include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/joints_elsewhere.h"
 #include "core/trajectory/set_joints.h"
@@ -93,13 +94,8 @@ std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId ar
     return std::nullopt;
   }
   if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return std::nullopt;
-  static const YieldsTried kUntried;
-  const auto tried_for = [arm](const Step& one) -> const YieldsTried& {
-    const auto found = one.yields.find(arm);
-    return found == one.yields.end() ? kUntried : found->second;
-  };
-  const YieldsTried& tried = tried_for(step);
-  const YieldsTried& of_all = tried_for(state.jobs.at(step.job->errand.on_behalf_of));
+  const YieldsTried& tried = tried_for(step, arm);
+  const YieldsTried& of_all = tried_for(state.jobs.at(step.job->errand.on_behalf_of), arm);
   if (of_all.total >= kYieldsMax) return std::nullopt;
   const TrajectoryPtr& came_by = state.arms.came_by(arm);
   const auto ways = ways_aside(*state.cell, arm, state.arms.rest(), came_by);
@@ -121,26 +117,33 @@ const std::vector<Wait>& waits_of(const Step& step) {
   return step.is_waiting() ? step.judgement().found : step.waits_on;
 }
 
-void tell_of_way_aside(State& state, Step& step, ArmId arm, bool has_none) {
-  auto* queued = std::get_if<Queued>(&step.phase);
+void tell_of_way_aside(Transitions& state, const Step& step, ArmId arm, bool has_none) {
+  const auto* queued = step.in<Queued>();
   if (queued == nullptr || !queued->in_backlog) return;
-  for (Wait& wait : queued->judgement.found)
+  Judgement found = queued->judgement;
+  for (Wait& wait : found.found)
     if (wait.kind == Wait::Kind::arm && wait.arm == arm) wait.has_no_way_aside = has_none;
-  state.jobs.set_waits(step, queued->judgement.found);
+  state.jobs().set_waits(step, found.found);
+  state.jobs().set(step, std::move(found));
 }
 
 }  // namespace
 
-std::optional<YieldTrial> next_yield(State& state) {
-  if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
-  for (JobId id : state.jobs.past_queue()) {
-    Step& step = state.jobs.at(id);
+const YieldsTried& tried_for(const Step& step, ArmId arm) {
+  static const YieldsTried kUntried;
+  const auto found = step.yields.find(arm);
+  return found == step.yields.end() ? kUntried : found->second;
+}
+
+std::optional<YieldTrial> next_yield(Transitions& state) {
+  if (state->cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
+  for (const Step& step : state->jobs.past_queue()) {
     const std::vector<Wait>* waits = known_waits(state, step);
     if (waits == nullptr || step.is_replanned_now()) continue;  // perhaps it passes
     for (const Wait& wait : *waits) {
       if (!is_idle_arm(state, wait)) continue;
       auto move = untried(state, step, *wait.arm);
-      const bool has_none = !move && !state.arms.is_stopped(*wait.arm);
+      const bool has_none = !move && !state->arms.is_stopped(*wait.arm);
       if (has_none != wait.has_no_way_aside) tell_of_way_aside(state, step, *wait.arm, has_none);
       if (move) return move;
     }
@@ -212,15 +215,40 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
   });
 }
 
-void note_tried(State& state, const YieldTrial& move, bool goes) {
-  Step& step = state.jobs.at(move.blocked_job);
-  YieldsTried& tried = step.yields[move.arm];
-  tried.from = state.arms.came_by(move.arm);
+void note_tried(Transitions& state, const YieldTrial& move, bool goes) {
+  const Step& step = state->jobs.at(move.blocked_job);
+  YieldsTried tried = tried_for(step, move.arm);
+  tried.from = state->arms.came_by(move.arm);
   tried.next = move.index + 1;
-  if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return;
-  YieldsTried& of_all = state.jobs.at(step.job->errand.on_behalf_of).yields[move.arm];
+  state.jobs().set(step, move.arm, std::move(tried));
+  const Step* helped = state->jobs.find(step.job->errand.on_behalf_of);
+  if (helped == nullptr || helped->has_ended()) return;
+  YieldsTried of_all = tried_for(*helped, move.arm);
   ++of_all.total;
   if (goes) of_all.went_to.push_back(move.way->goal());
+  state.jobs().set(*helped, move.arm, std::move(of_all));
+}
+
+void ask_for_way_aside(Transitions& state, const YieldTrial& move) {
+  const Step& step = state->jobs.at(move.blocked_job);
+  YieldsTried tried = tried_for(step, move.arm);
+  if (tried.planned.request.question) return;
+  tried.from = state->arms.came_by(move.arm);
+  tried.next = move.index;
+  tried.planned = {};
+  tried.planned.request =
+      send(state, step, {},
+           {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
+            .at = rest_after_admitted(state),
+            .seed = step.id.job.value()});
+  state.jobs().set(step, move.arm, std::move(tried));
+}
+
+void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer) {
+  YieldsTried tried = tried_for(step, arm);
+  const bool is_there_still = tried.from == state->arms.came_by(arm);
+  tried.planned = {.is_answered = is_there_still, .way = answer.trajectory};
+  state.jobs().set(step, arm, std::move(tried));
 }
 
 bool is_counted_on(const State& state, const Step& own) {

@@ -1,0 +1,54 @@
+#include "core/jobs/state.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace armloom {
+
+std::vector<Effect> StateWriter::take_effects() {
+  std::vector<Effect> result;
+  const std::vector<YieldMove> added = std::exchange(added_, {});
+  for (const YieldMove& move : added) result.emplace_back(move);
+  std::set<JobId> changed = state_.jobs.take_changed();
+  for (const YieldMove& move : added) {  // they are known before others wait for them
+    if (changed.erase(move.job) != 0) result.emplace_back(JobChanged{move.job});
+  }
+  for (JobId job : changed) result.emplace_back(JobChanged{job});
+  std::ranges::move(std::exchange(effects_, {}), std::back_inserter(result));
+  return result;
+}
+
+void StateWriter::change_scene() {
+  ++state_.changes_;
+  state_.scene_epoch = state_.version();
+  state_.lanes.forget_passages();
+}
+
+void StateWriter::change_policy(std::shared_ptr<const Policy> policy) {
+  state_.policy = std::move(policy);
+  state_.round = {};
+  ++state_.changes_;
+}
+
+void StateWriter::set_speed(const SetSpeed& input) {
+  state_.speed.set(input.arm, input.share, state_.now);
+  state_.expected.spoil();
+  ++state_.changes_;
+}
+
+void StateWriter::locate(const Located& input) {
+  state_.arms.locate(*state_.cell, input.arm, input.position);
+  state_.lanes.renew_later();
+}
+
+void StateWriter::renew_orders(const PassingOrders& orders) {
+  const std::vector<CoordinatedMotion> nobody;
+  const std::size_t motions = state_.graph.motions().size();
+  // None are found if admitted motions wait for each other.
+  const bool found = orders.blockers.empty() && orders.prediction.ends.size() == motions;
+  if (found) state_.graph.admit(nobody, orders);
+  state_.expected.renew(found ? state_.graph.motions() : nobody, orders.prediction, state_.now);
+}
+
+}  // namespace armloom
