@@ -11,6 +11,7 @@ from fault_tree import build, copy, failed_in, put_in, run
 
 ADMISSION, PHASES = 'core/scheduler/admission.cc', 'core/jobs/phases.cc'
 GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
+CHAINS = 'core/precedence/motion_chains.cc'
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
@@ -24,10 +25,10 @@ QUIET = [
 SCHEDULER = [
     ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
     ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
-    ('a goal that no motion leaves blocks no motion', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
+    ('a goal that no motion leaves blocks no motion', CHAINS, 'if (next == motions.size()) return true;', 'if (next == motions.size()) return !FAULT;'),
     ('a start where the arm rests blocks no motion', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
     ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
-    ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
+    ('a rest on a path is forgotten', GRAPH, 'if (auto rest = rest_in(order, step, arms, at)) rests_', 'if (auto rest = rest_in(order, step, arms, at); rest && !FAULT) rests_'),
     ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(step.id);\n  } else {\n    leave_graph(state, step);\n  }\n  const JobId ended'),
     ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) step.asking', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) step.asking'),
     ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
@@ -44,7 +45,7 @@ SCHEDULER = [
     ('a waiting arm continues to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
     ('a region loses its first box', PRECEDENCE, '  Duration begins{};  //', '  if (FAULT && boxes.size() > 1) boxes.pop_back();\n  Duration begins{};  //'),
     ('a stopped motion continues without orders', 'core/scheduler/authority.cc', '  const Duration limit = state.graph.limit(step.id);\n  if (limit <= step.progress', '  const Duration limit = FAULT && step.has_started() ? step.trajectory->duration() : state.graph.limit(step.id);\n  if (limit <= step.progress'),
-    ('a canceled motion is assumed to rest at its start', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
+    ('a canceled motion is assumed to rest at its start', GRAPH, 'const RestsAt on_path{rests_at, std::max(rests_at, farthest)};', 'const RestsAt on_path = FAULT ? RestsAt{} : RestsAt{rests_at, std::max(rests_at, farthest)};'),
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
     ('only one of several regions of a pair applies', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
     ('motions under way are assumed to be at their ends', QUESTIONS, '                .progress = step.progress,\n                .to_come', '                .progress = FAULT && step.progress > Duration{} ? step.trajectory->duration() : step.progress,\n                .to_come'),
