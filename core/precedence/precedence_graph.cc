@@ -32,9 +32,8 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   }
   std::erase_if(rests_, [](const Rest& rest) { return rest.arms.empty(); });
   precedences_ = orders.precedences;
-  std::erase_if(precedences_, [this](const Precedence& precedence) {
-    return !precedence.limit(find(precedence.first())->progress) && !goal_in(precedence);
-  });
+  std::erase_if(precedences_,
+                [this](const Precedence& precedence) { return !limit_by(precedence); });
 }
 
 void PrecedenceGraph::progress(StepId step, Duration progress) {
@@ -47,18 +46,29 @@ void PrecedenceGraph::progress(StepId step, Duration progress) {
 Duration PrecedenceGraph::limit(StepId step) const {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return Duration{};
-  const bool waits_for_own_arm = std::ranges::any_of(found->arms, [&](ArmId arm) {
-    return motion_before(motions_, index_of(step), arm).has_value();
-  });
+  const auto index = static_cast<std::size_t>(found - motions_.data());
+  const bool waits_for_own_arm = std::ranges::any_of(
+      found->arms, [&](ArmId arm) { return motion_before(motions_, index, arm).has_value(); });
   if (waits_for_own_arm) return Duration{};
   Duration limit = found->duration;
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != step) continue;
-    const auto held = precedence.limit(find(precedence.first())->progress);
+    const auto held = limit_by(precedence);
     if (held) limit = std::min(limit, *held);
   }
-  const auto rest = nearest_rest(step);
-  return rest ? std::min(limit, rest->limit()) : limit;
+  for (const Rest& rest : rests_) {
+    if (rest.order.second() == step && is_ahead(rest)) limit = std::min(limit, rest.limit());
+  }
+  return limit;
+}
+
+// Returns the largest authority that the second motion may have; nullopt if there is no limit.
+// While the first motion is on its way to a goal, that goal does not limit more than the order.
+std::optional<Duration> PrecedenceGraph::limit_by(const Precedence& order) const {
+  const auto limit = order.limit(find(order.first())->progress);
+  if (limit) return limit;
+  const auto goal = goal_in(order);
+  return goal ? std::optional(goal->limit()) : std::nullopt;
 }
 
 std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
@@ -187,16 +197,19 @@ std::optional<PrecedenceGraph::Rest> PrecedenceGraph::goal_in(const Precedence& 
   return rest_in(order, first.step, first.arms, {first.duration, first.duration});
 }
 
+// Returns true if the second motion has not passed the rest.
+bool PrecedenceGraph::is_ahead(const Rest& rest) const {
+  const Duration passed = find(rest.order.second())->progress;
+  return std::ranges::any_of(rest.order.region().boxes,
+                             [&](const ProgressBox& box) { return passed < box.to_b; });
+}
+
 // Returns the rests that the motion, or with nullopt any motion, has still to pass: arms that rest
 // in its path, and goals where arms will.
 std::vector<PrecedenceGraph::Rest> PrecedenceGraph::rests_before(std::optional<StepId> step) const {
   std::vector<Rest> rests;
   for (const Rest& rest : rests_) {
-    if (step && rest.order.second() != *step) continue;
-    const auto is_ahead = [&](const ProgressBox& box) {
-      return find(rest.order.second())->progress < box.to_b;
-    };
-    if (std::ranges::any_of(rest.order.region().boxes, is_ahead)) rests.push_back(rest);
+    if ((!step || rest.order.second() == *step) && is_ahead(rest)) rests.push_back(rest);
   }
   for (const Precedence& order : precedences_) {
     if (step && order.second() != *step) continue;

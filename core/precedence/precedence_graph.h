@@ -86,6 +86,8 @@ class PrecedenceGraph {
   [[nodiscard]] std::optional<Rest> rest_in(const Precedence& order, StepId resting,
                                             const std::vector<ArmId>& arms,
                                             const RestsAt& at) const;
+  [[nodiscard]] std::optional<Duration> limit_by(const Precedence& order) const;
+  [[nodiscard]] bool is_ahead(const Rest& rest) const;
   [[nodiscard]] std::optional<Rest> goal_in(const Precedence& order) const;
   [[nodiscard]] std::vector<Rest> rests_before(std::optional<StepId> step) const;
   [[nodiscard]] std::optional<Rest> nearest_rest(StepId step) const;

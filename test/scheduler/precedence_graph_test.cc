@@ -118,6 +118,25 @@ TEST_F(Graph, AbandonedMotionBlocksOnlyMotionsThatPassItsRest) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
+TEST_F(Graph, AbandonedMotionBlocksOnlyTheBoxesThatItHasNotLeft) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{1s, 2s, 1s, 2s}, {3s, 4s, 2s, 3s}})}}});
+  graph.progress(kA, 2500ms);
+  graph.abandon(kA, 2500ms);
+  EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
+}
+
+// B would pass without a wait after A has ended and before Next begins. But the arm rests there.
+TEST_F(Graph, RegionsThatMeetAtARestShareOneOrder) {
+  admit({motion(kA, 0, 5s)}, {});
+  const auto orders = admit({motion(kB, 1, 6s), motion(kNext, 0, 20s)},
+                            {{kB, kA, {region({{5200ms, 5400ms, 4s, 5s}})}},
+                             {kB, kNext, {region({{5200ms, 5400ms, 0s, 10s}})}}});
+  ASSERT_EQ(orders.precedences.size(), 2u);
+  EXPECT_EQ(orders.precedences[0].first() == kB, orders.precedences[1].first() == kB);
+}
+
 TEST_F(Graph, CancelingTheNextMotionKeepsTheGoalBlocked) {
   let_b_wait_until_next_has_left();
   graph.abandon(kNext, 0s);
