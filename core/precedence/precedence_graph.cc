@@ -13,10 +13,6 @@ const CoordinatedMotion* PrecedenceGraph::find(StepId step) const {
   return found == motions_.end() ? nullptr : &*found;
 }
 
-CoordinatedMotion* PrecedenceGraph::motion(StepId step) {
-  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(step));
-}
-
 std::size_t PrecedenceGraph::index_of(StepId step) const {
   return static_cast<std::size_t>(find(step) - motions_.data());
 }
@@ -37,16 +33,16 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
 }
 
 void PrecedenceGraph::progress(StepId step, Duration progress) {
-  CoordinatedMotion* found = motion(step);
-  if (found == nullptr) return;
-  found->progress = std::max(found->progress, progress);
-  found->authority = std::max(found->authority, found->progress);
+  if (!holds(step)) return;
+  CoordinatedMotion& motion = motions_[index_of(step)];
+  motion.progress = std::max(motion.progress, progress);
+  motion.authority = std::max(motion.authority, motion.progress);
 }
 
 Duration PrecedenceGraph::limit(StepId step) const {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return Duration{};
-  const auto index = static_cast<std::size_t>(found - motions_.data());
+  const std::size_t index = index_of(step);
   const bool waits_for_own_arm = std::ranges::any_of(
       found->arms, [&](ArmId arm) { return motion_before(motions_, index, arm).has_value(); });
   if (waits_for_own_arm) return Duration{};
@@ -76,7 +72,7 @@ std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
   if (found == nullptr) return std::nullopt;
   const Duration at = limit(step);
   if (at >= found->duration) return std::nullopt;
-  const auto rest = nearest_rest(step);
+  const auto rest = rests_ahead(step);
   if (rest && rest->limit() == at) return rest->blocker();
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != step) continue;
@@ -86,6 +82,12 @@ std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
   return std::nullopt;
 }
 
+std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rests_ahead(StepId step) const {
+  std::vector<Rest> rests = rests_before(step);
+  const auto nearest = std::ranges::min_element(rests, {}, &Rest::limit);
+  return nearest != rests.end() ? std::optional(std::move(*nearest)) : std::nullopt;
+}
+
 HeldAt PrecedenceGraph::held_at() const {
   HeldAt held_at(motions_.size());
   for (const Rest& rest : rests_before(std::nullopt)) {
@@ -93,11 +95,6 @@ HeldAt PrecedenceGraph::held_at() const {
     held = std::min(held.value_or(rest.limit()), rest.limit());
   }
   return held_at;
-}
-
-std::optional<Blocker> PrecedenceGraph::rests_ahead(StepId step) const {
-  const auto rest = nearest_rest(step);
-  return rest ? std::optional(rest->blocker()) : std::nullopt;
 }
 
 std::vector<Dependency> PrecedenceGraph::dependencies() const {
@@ -120,25 +117,27 @@ bool PrecedenceGraph::is_acyclic() const {
 }
 
 void PrecedenceGraph::granted(StepId step, Duration authority) {
-  CoordinatedMotion* found = motion(step);
-  if (found == nullptr) return;
+  if (!holds(step)) return;
   if (authority > limit(step)) {
     throw std::logic_error("job " + std::to_string(step.job.value()) +
                            ": authority beyond its limit");
   }
-  found->authority = std::max(found->authority, authority);
+  CoordinatedMotion& motion = motions_[index_of(step)];
+  motion.authority = std::max(motion.authority, authority);
 }
 
 void PrecedenceGraph::set_outlook(StepId step, const Outlook& outlook) {
-  motion(step)->outlook = outlook;
+  motions_[index_of(step)].outlook = outlook;
 }
 
-void PrecedenceGraph::set_priority(StepId step, int priority) { motion(step)->priority = priority; }
+void PrecedenceGraph::set_priority(StepId step, int priority) {
+  motions_[index_of(step)].priority = priority;
+}
 
 void PrecedenceGraph::finish(StepId step) {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return;
-  come_to_rest(step, found->arms, {found->duration, found->duration});
+  come_to_rest(step, found->arms, found->duration, found->duration);
   erase(step);
 }
 
@@ -150,22 +149,25 @@ void PrecedenceGraph::abandon(StepId step, Duration rests_at, Duration farthest)
     brought_by[motion_before(motions_, index_of(step), arm)].push_back(arm);
   }
   for (const auto& [before, arms] : brought_by) {
-    const RestsAt on_path{rests_at, std::max(rests_at, farthest)};
-    come_to_rest(step, arms, before ? RestsAt{} : on_path, before);
+    if (before) {
+      come_to_rest(step, arms, Duration{}, Duration{}, before);
+    } else {
+      come_to_rest(step, arms, rests_at, std::max(rests_at, farthest));
+    }
   }
   erase(step);
 }
 
 // With `brought_by`, that motion brings the arms there. Then this is only about motions that share
 // an arm with it, because they have no regions with it. For all others its goal tells the same.
-void PrecedenceGraph::come_to_rest(StepId step, const std::vector<ArmId>& arms, const RestsAt& at,
-                                   std::optional<std::size_t> brought_by) {
+void PrecedenceGraph::come_to_rest(StepId step, const std::vector<ArmId>& arms, Duration at,
+                                   Duration farthest, std::optional<std::size_t> brought_by) {
   for (const Precedence& order : precedences_) {
     const bool first = order.first() == step;
     if (!first && (order.second() != step || brought_by)) continue;
     const bool is_told = brought_by && !share_an_arm(motions_[*brought_by], *find(order.second()));
     if (is_told) continue;
-    if (auto rest = rest_in(order, step, arms, at)) rests_.push_back(std::move(*rest));
+    if (auto rest = rest_in(order, step, arms, at, farthest)) rests_.push_back(std::move(*rest));
   }
 }
 
@@ -174,7 +176,8 @@ void PrecedenceGraph::come_to_rest(StepId step, const std::vector<ArmId>& arms, 
 std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rest_in(const Precedence& order,
                                                               StepId resting,
                                                               const std::vector<ArmId>& arms,
-                                                              const RestsAt& at) const {
+                                                              Duration at,
+                                                              Duration farthest) const {
   const bool first = order.first() == resting;
   const std::size_t own = index_of(resting),
                     other = index_of(first ? order.second() : order.first());
@@ -182,8 +185,8 @@ std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rest_in(const Precedence& 
   if (staying.empty()) return std::nullopt;
   ConflictRegion region = Precedence(order.first(), order.second(), order.region(), first).region();
   std::erase_if(region.boxes, [&](const ProgressBox& box) {
-    const bool is_left = box.to_a <= at.last && box.to_a < motions_[own].duration;
-    return is_left || at.foremost < box.from_a || box.to_b <= motions_[other].progress;
+    const bool is_left = box.to_a <= at && box.to_a < motions_[own].duration;
+    return is_left || farthest < box.from_a || box.to_b <= motions_[other].progress;
   });
   if (region.boxes.empty()) return std::nullopt;
   for (ProgressBox& box : region.boxes) box.to_a = Duration::max();
@@ -194,7 +197,7 @@ std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rest_in(const Precedence& 
 std::optional<PrecedenceGraph::Rest> PrecedenceGraph::goal_in(const Precedence& order) const {
   const CoordinatedMotion& first = *find(order.first());
   if (order.steps().back().until < first.duration) return std::nullopt;
-  return rest_in(order, first.step, first.arms, {first.duration, first.duration});
+  return rest_in(order, first.step, first.arms, first.duration, first.duration);
 }
 
 // Returns true if the second motion has not passed the rest.
@@ -216,12 +219,6 @@ std::vector<PrecedenceGraph::Rest> PrecedenceGraph::rests_before(std::optional<S
     if (auto goal = goal_in(order)) rests.push_back(std::move(*goal));
   }
   return rests;
-}
-
-std::optional<PrecedenceGraph::Rest> PrecedenceGraph::nearest_rest(StepId step) const {
-  std::vector<Rest> rests = rests_before(step);
-  const auto nearest = std::ranges::min_element(rests, {}, &Rest::limit);
-  return nearest != rests.end() ? std::optional(std::move(*nearest)) : std::nullopt;
 }
 
 Blocker PrecedenceGraph::Rest::blocker() const {

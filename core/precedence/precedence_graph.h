@@ -13,6 +13,17 @@ namespace armloom {
 // combination. The graph is acyclic after every admission, so every motion can reach its end. Pure.
 class PrecedenceGraph {
  public:
+  // Arms that rest in the path of the order's second motion, or will where the first one ends. The
+  // region has only the boxes that the arms are in, and these do not end.
+  struct Rest {
+    std::vector<ArmId> arms;
+    Precedence order;
+
+    // Returns the progress up to which the second motion may go.
+    [[nodiscard]] Duration limit() const { return *order.limit({}); }
+    [[nodiscard]] Blocker blocker() const;  // names one of the arms
+  };
+
   explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}
 
   [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
@@ -42,11 +53,11 @@ class PrecedenceGraph {
   // Returns what holds the motion at its limit; nullopt if it may go to its end, or if it only
   // waits for an earlier motion of its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(StepId step) const;
-  // Returns by motion where an arm at rest in its path holds it (the limit of rests_ahead()).
+  // Returns the first rest that holds the motion; nullopt if there is none. No admitted motion will
+  // move these arms away.
+  [[nodiscard]] std::optional<Rest> rests_ahead(StepId step) const;
+  // Returns by motion the limit of rests_ahead().
   [[nodiscard]] HeldAt held_at() const;
-  // Returns the arm at rest that holds the motion first; nullopt if there is none. The arm rests
-  // there now, or will when an admitted motion has ended. No admitted motion will move it away.
-  [[nodiscard]] std::optional<Blocker> rests_ahead(StepId step) const;
   // Returns the precedences, with motions as indices into motions(), for predict().
   [[nodiscard]] std::vector<Dependency> dependencies() const;
   // Returns true if one of the arms rests, or will rest, in the motion's path.
@@ -68,30 +79,15 @@ class PrecedenceGraph {
   void abandon(StepId step, Duration rests_at, Duration farthest = {});
 
  private:
-  // Arms that rest in the path of the order's second motion. The order's first motion has ended:
-  // its boxes are those that the arms are in, and do not end.
-  struct Rest {
-    std::vector<ArmId> arms;
-    Precedence order;
-
-    [[nodiscard]] Duration limit() const { return *order.limit({}); }
-    [[nodiscard]] Blocker blocker() const;  // names one of the arms
-  };
-  // Progress of the last and of the foremost arm of a motion.
-  struct RestsAt {
-    Duration last, foremost;
-  };
   [[nodiscard]] std::size_t index_of(StepId step) const;  // precondition: holds(step)
-  [[nodiscard]] CoordinatedMotion* motion(StepId step);
   [[nodiscard]] std::optional<Rest> rest_in(const Precedence& order, StepId resting,
-                                            const std::vector<ArmId>& arms,
-                                            const RestsAt& at) const;
+                                            const std::vector<ArmId>& arms, Duration at,
+                                            Duration farthest) const;
   [[nodiscard]] std::optional<Duration> limit_by(const Precedence& order) const;
   [[nodiscard]] bool is_ahead(const Rest& rest) const;
   [[nodiscard]] std::optional<Rest> goal_in(const Precedence& order) const;
   [[nodiscard]] std::vector<Rest> rests_before(std::optional<StepId> step) const;
-  [[nodiscard]] std::optional<Rest> nearest_rest(StepId step) const;
-  void come_to_rest(StepId step, const std::vector<ArmId>& arms, const RestsAt& at,
+  void come_to_rest(StepId step, const std::vector<ArmId>& arms, Duration at, Duration farthest,
                     std::optional<std::size_t> brought_by = {});
   void erase(StepId step);
 
