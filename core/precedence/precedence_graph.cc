@@ -42,18 +42,18 @@ void PrecedenceGraph::progress(StepId step, Duration progress) {
 Duration PrecedenceGraph::limit(StepId step) const {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return Duration{};
-  const std::size_t index = index_of(step);
+  const auto index = static_cast<std::size_t>(found - motions_.data());
   const bool waits_for_own_arm = std::ranges::any_of(
       found->arms, [&](ArmId arm) { return motion_before(motions_, index, arm).has_value(); });
   if (waits_for_own_arm) return Duration{};
   Duration limit = found->duration;
+  for (const Rest& rest : rests_) {
+    if (rest.order.second() == step && is_ahead(rest)) limit = std::min(limit, rest.limit());
+  }
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != step) continue;
     const auto held = limit_by(precedence);
     if (held) limit = std::min(limit, *held);
-  }
-  for (const Rest& rest : rests_) {
-    if (rest.order.second() == step && is_ahead(rest)) limit = std::min(limit, rest.limit());
   }
   return limit;
 }
@@ -61,10 +61,10 @@ Duration PrecedenceGraph::limit(StepId step) const {
 // Returns the largest authority that the second motion may have; nullopt if there is no limit.
 // While the first motion is on its way to a goal, that goal does not limit more than the order.
 std::optional<Duration> PrecedenceGraph::limit_by(const Precedence& order) const {
-  const auto limit = order.limit(find(order.first())->progress);
+  auto limit = order.limit(find(order.first())->progress);
   if (limit) return limit;
-  const auto goal = goal_in(order);
-  return goal ? std::optional(goal->limit()) : std::nullopt;
+  if (const auto goal = goal_in(order)) limit = goal->limit();
+  return limit;
 }
 
 std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
