@@ -89,9 +89,9 @@ class Timetable {
     const auto [at, from] = stages.back();
     if (auto held = held_by(m)) return {now_ + from, std::nullopt, at, std::move(held)};
     const auto rests = state_.graph.rests_ahead(motions_[m].step);
-    const bool is_blocked = rests && *state_.graph.held_at()[m] <= at;
+    const bool is_blocked = rests && rests->limit() <= at;
     return {now_ + from, std::nullopt, at,
-            is_blocked ? wait_for(*rests) : waits_on(m, at, std::nullopt)};
+            is_blocked ? wait_for(rests->blocker()) : waits_on(m, at, std::nullopt)};
   }
 
   // The motion before it on an arm never ends.

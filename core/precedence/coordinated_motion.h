@@ -30,14 +30,14 @@ struct CoordinatedMotion {
   Duration horizon{};  // largest lead of its authority over its progress
   Outlook outlook = {};
 
+  [[nodiscard]] bool moves(ArmId arm) const { return std::ranges::find(arms, arm) != arms.end(); }
   // Returns true if the motion has passed an interval of progress that ends at `to`. An interval
   // that includes the motion's end is never passed.
   [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }
 };
 
 [[nodiscard]] inline bool share_an_arm(const CoordinatedMotion& a, const CoordinatedMotion& b) {
-  return std::ranges::any_of(
-      a.arms, [&](ArmId arm) { return std::ranges::find(b.arms, arm) != b.arms.end(); });
+  return std::ranges::any_of(a.arms, [&](ArmId arm) { return b.moves(arm); });
 }
 
 }  // namespace armloom

@@ -1,31 +1,38 @@
 #include "core/precedence/motion_chains.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 
 namespace armloom {
 
+std::optional<std::size_t> motion_before(const std::vector<CoordinatedMotion>& motions,
+                                         std::size_t motion, ArmId arm) {
+  while (motion > 0) {
+    if (motions[--motion].moves(arm)) return motion;
+  }
+  return std::nullopt;
+}
+
 MotionChains::MotionChains(const std::vector<CoordinatedMotion>& motions)
-    : before_(motions.size()), stands_(motions.size(), true), moves_on_(motions.size(), false) {
-  std::map<ArmId, std::size_t> last;
-  std::vector<std::size_t> followed(motions.size(), 0);  // how many of its arms move on
+    : before_(motions.size()) {
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    std::size_t preceded = 0;
     for (const ArmId arm : motions[m].arms) {
-      if (const auto ahead = last.find(arm); ahead != last.end()) {
-        ++preceded;
-        ++followed[ahead->second];
-        if (std::ranges::find(before_[m], ahead->second) == before_[m].end()) {
-          before_[m].push_back(ahead->second);
-        }
-      }
-      last[arm] = m;
+      if (const auto ahead = motion_before(motions, m, arm)) before_[m].push_back(*ahead);
     }
-    stands_[m] = preceded < motions[m].arms.size();
   }
-  for (std::size_t m = 0; m < motions.size(); ++m) {
-    moves_on_[m] = followed[m] == motions[m].arms.size();
-  }
+}
+
+std::vector<ArmId> resting_for(const std::vector<CoordinatedMotion>& motions,
+                               const std::vector<ArmId>& arms, std::size_t from,
+                               std::size_t other) {
+  std::vector<ArmId> resting;
+  std::ranges::copy_if(arms, std::back_inserter(resting), [&](ArmId arm) {
+    std::size_t next = from + 1;
+    while (next < motions.size() && !motions[next].moves(arm)) ++next;
+    if (next == motions.size()) return true;
+    return next > other && share_an_arm(motions[next], motions[other]);
+  });
+  return resting;
 }
 
 }  // namespace armloom

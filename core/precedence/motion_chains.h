@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -9,25 +10,31 @@
 
 namespace armloom {
 
-// Tells which motions follow each other on shared arms, in list order. Motions are given as indices
-// into the list.
+// In this file, a motion is an index into a list in which the motions of one arm are in running
+// order.
+
+// Returns the arm's motion before this one; nullopt: none.
+[[nodiscard]] std::optional<std::size_t> motion_before(
+    const std::vector<CoordinatedMotion>& motions, std::size_t motion, ArmId arm);
+
+// The motions before each motion of a list.
 class MotionChains {
  public:
   explicit MotionChains(const std::vector<CoordinatedMotion>& motions);
 
-  // Returns the motions that directly precede this motion on its arms, each once.
+  // Returns motion_before() for each arm that has one.
   [[nodiscard]] const std::vector<std::size_t>& before(std::size_t motion) const {
     return before_[motion];
   }
-  // Returns true if one of the motion's arms has no earlier motion, so that it is at the start now.
-  [[nodiscard]] bool stands(std::size_t motion) const { return stands_[motion]; }
-  // Returns true if each of the motion's arms has a later motion.
-  [[nodiscard]] bool moves_on(std::size_t motion) const { return moves_on_[motion]; }
 
  private:
   std::vector<std::vector<std::size_t>> before_;
-  std::vector<bool> stands_;
-  std::vector<bool> moves_on_;
 };
+
+// Returns those of `arms` that the motion `other` finds where they rest after the motion `from`,
+// because their next motion does not exist, or must wait for `other` on an arm that both move.
+[[nodiscard]] std::vector<ArmId> resting_for(const std::vector<CoordinatedMotion>& motions,
+                                             const std::vector<ArmId>& arms, std::size_t from,
+                                             std::size_t other);
 
 }  // namespace armloom

@@ -13,26 +13,21 @@ std::size_t variant(bool a_first, bool at_start) {
   return (a_first ? 0U : 1U) + (at_start ? 2U : 0U);
 }
 
-bool overlap(Duration from_1, Duration to_1, Duration from_2, Duration to_2) {
-  return from_1 <= to_2 && from_2 <= to_1;
-}
+ProgressBox seen_by(bool a, const ProgressBox& box) { return a ? box : turned_around(box); }
 
 // Returns true if both regions contain the rest at which a motion of an arm ends, after `end`, and
 // the next one begins, for the same states of the passing motion. `d_side`: the arm's motion is A
 // in region d.
 bool meet_at_rest(const ConflictRegion& d, bool d_side, const ConflictRegion& e, bool e_side,
                   Duration end) {
-  for (const ProgressBox& last : d.boxes) {
-    if ((d_side ? last.to_a : last.to_b) < end) continue;
-    for (const ProgressBox& first : e.boxes) {
-      if ((e_side ? first.from_a : first.from_b) > Duration{}) continue;
-      if (overlap(d_side ? last.from_b : last.from_a, d_side ? last.to_b : last.to_a,
-                  e_side ? first.from_b : first.from_a, e_side ? first.to_b : first.to_a)) {
-        return true;
-      }
-    }
-  }
-  return false;
+  return std::ranges::any_of(d.boxes, [&](const ProgressBox& in_d) {
+    const ProgressBox last = seen_by(d_side, in_d);
+    return last.to_a >= end && std::ranges::any_of(e.boxes, [&](const ProgressBox& in_e) {
+             const ProgressBox first = seen_by(e_side, in_e);
+             return first.from_a <= Duration{} && last.from_b <= first.to_b &&
+                    first.from_b <= last.to_b;
+           });
+  });
 }
 
 std::vector<CoordinatedMotion> both(const std::vector<CoordinatedMotion>& admitted,
@@ -83,11 +78,10 @@ void OpenOrders::add_decided(const Precedence& precedence) {
   const std::size_t a = *index_of(precedence.first());
   const std::size_t b = *index_of(precedence.second());
   OpenOrder order{.a = a, .b = b, .region = precedence.region()};
-  for (const ProgressBox& box : order.region.boxes) {
-    if (motions_[b].is_beyond(box.to_b)) continue;
-    if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
-  }
-  if (motions_[a].outlook.keeps_its_place) order.b_may = false;
+  order.b_may = !motions_[a].outlook.keeps_its_place &&
+                std::ranges::all_of(order.region.boxes, [&](const ProgressBox& box) {
+                  return motions_[b].is_beyond(box.to_b) || may_pass_second(a, b, box);
+                });
   order.at_start = precedence.waits_at_start();
   order.made[variant(true, order.at_start)] = precedence;
   orders_.push_back(std::move(order));
@@ -100,18 +94,25 @@ void OpenOrders::add(std::size_t a, std::size_t b, const ConflictRegion& region)
   });
   if (order.region.boxes.empty()) return;
   for (const ProgressBox& box : order.region.boxes) {
-    if (reaches(b, box.from_b, a) || blocks_end(a, box.to_a, b)) order.a_may = false;
-    if (reaches(a, box.from_a, b) || blocks_end(b, box.to_b, a)) order.b_may = false;
-    if (blocks_end(a, box.to_a, b)) note_in_the_way(a);
-    if (blocks_end(b, box.to_b, a)) note_in_the_way(b);
+    order.a_may = order.a_may && may_pass_second(b, a, turned_around(box));
+    order.b_may = order.b_may && may_pass_second(a, b, box);
+    if (rests_at(a, box.to_a, b)) note_in_the_way(a);
+    if (rests_at(b, box.to_b, a)) note_in_the_way(b);
   }
   if (order.a_may && order.b_may) {
-    if (motions_[a].outlook.keeps_its_place && !motions_[b].outlook.keeps_its_place)
-      order.b_may = false;
-    if (motions_[b].outlook.keeps_its_place && !motions_[a].outlook.keeps_its_place)
-      order.a_may = false;
+    const bool a_keeps = motions_[a].outlook.keeps_its_place;
+    const bool b_keeps = motions_[b].outlook.keeps_its_place;
+    order.a_may = a_keeps || !b_keeps;
+    order.b_may = b_keeps || !a_keeps;
   }
   orders_.push_back(std::move(order));
+}
+
+// Returns false if `second` (A) has, or may have, entered the box when `first` (B) passes, or if
+// `first` stays in the box at its end.
+bool OpenOrders::may_pass_second(std::size_t second, std::size_t first,
+                                 const ProgressBox& box) const {
+  return !reaches(second, box.from_a, first) && !rests_at(first, box.to_b, second);
 }
 
 // It has, or may have, entered what begins at `from` when the other one passes: it stands at its
@@ -120,22 +121,17 @@ bool OpenOrders::reaches(std::size_t motion, Duration from, std::size_t other) c
   if (from < motions_[motion].authority) return true;
   const bool at_start = from <= Duration{} && motions_[motion].authority <= Duration{};
   if (!at_start) return false;
-  return chains_.stands(motion) ||
-         std::ranges::any_of(chains_.before(motion), [&](std::size_t ahead) {
+  const auto& before = chains_.before(motion);
+  return before.size() < motions_[motion].arms.size() ||
+         std::ranges::any_of(before, [&](std::size_t ahead) {
            return ahead < other && share_an_arm(motions_[ahead], motions_[other]);
          });
 }
 
 // It comes to rest there and nothing takes it away, or only what follows the other one.
-bool OpenOrders::blocks_end(std::size_t motion, Duration to, std::size_t other) const {
-  if (to < motions_[motion].duration) return false;
-  if (!chains_.moves_on(motion)) return true;
-  for (std::size_t next = std::max(motion, other) + 1; next < motions_.size(); ++next) {
-    const auto& before = chains_.before(next);
-    const bool follows = std::ranges::find(before, motion) != before.end();
-    if (follows && share_an_arm(motions_[next], motions_[other])) return true;
-  }
-  return false;
+bool OpenOrders::rests_at(std::size_t motion, Duration to, std::size_t other) const {
+  return to >= motions_[motion].duration &&
+         !resting_for(motions_, motions_[motion].arms, motion, other).empty();
 }
 
 void OpenOrders::note_in_the_way(std::size_t motion) {

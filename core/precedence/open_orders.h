@@ -83,7 +83,9 @@ class OpenOrders {
   void add_decided(const Precedence& precedence);
   void add(std::size_t a, std::size_t b, const ConflictRegion& region);
   [[nodiscard]] bool reaches(std::size_t motion, Duration from, std::size_t other) const;
-  [[nodiscard]] bool blocks_end(std::size_t motion, Duration to, std::size_t other) const;
+  [[nodiscard]] bool rests_at(std::size_t motion, Duration to, std::size_t other) const;
+  [[nodiscard]] bool may_pass_second(std::size_t second, std::size_t first,
+                                     const ProgressBox& box) const;
   void note_in_the_way(std::size_t motion);
   [[nodiscard]] std::vector<std::vector<OrderChoice::Member>> joined_at_rests() const;
   void collect_choices();

@@ -54,14 +54,12 @@ class Line {
     const std::size_t other = own_is_a ? seen.b : seen.a;
     const double pace = open_.motions()[own_is_a ? seen.a : seen.b].outlook.pace;
     Window window;
-    for (const ProgressBox& box : seen.region.boxes) {
-      const Duration own_from = paced(own_is_a ? box.from_a : box.from_b, pace);
-      const Duration own_to = paced(own_is_a ? box.to_a : box.to_b, pace);
-      const auto comes = before.goes_beyond(other, own_is_a ? box.from_b : box.from_a);
-      const auto leaves = before.comes_to(other, own_is_a ? box.to_b : box.to_a);
-      if (comes) {
-        window.first_until = std::min(window.first_until, *comes - own_to);
-      }
+    for (const ProgressBox& of_pair : seen.region.boxes) {
+      const ProgressBox box = own_is_a ? of_pair : turned_around(of_pair);
+      const Duration own_from = paced(box.from_a, pace), own_to = paced(box.to_a, pace);
+      const auto comes = before.goes_beyond(other, box.from_b);
+      const auto leaves = before.comes_to(other, box.to_b);
+      if (comes) window.first_until = std::min(window.first_until, *comes - own_to);
       window.second_from =
           leaves ? std::max(window.second_from, *leaves - own_from) : Duration::max();
       if (leaves && *leaves > own_from) starts_.push_back(*leaves - own_from);

@@ -28,7 +28,7 @@ struct Blocker {
 struct OrderQuestion {
   const std::vector<CoordinatedMotion>& admitted;
   const std::vector<Precedence>& precedences;  // between the admitted motions
-  const HeldAt& held_at;                       // of the admitted motions
+  HeldAt held_at;                              // of the admitted motions
   const std::vector<CoordinatedMotion>& candidates;
   const std::vector<PairRegions>& regions;
   const std::vector<Duration>& work_behind;  // by ArmId: duration of the jobs in neither list

@@ -7,10 +7,7 @@ namespace armloom {
 namespace {
 
 ConflictRegion turned(ConflictRegion region) {
-  for (ProgressBox& box : region.boxes) {
-    std::swap(box.from_a, box.from_b);
-    std::swap(box.to_a, box.to_b);
-  }
+  for (ProgressBox& box : region.boxes) box = turned_around(box);
   region.proximity = turned_around(std::move(region.proximity));
   std::swap(region.time_a, region.time_b);
   return region;

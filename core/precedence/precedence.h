@@ -14,6 +14,11 @@ namespace armloom {
   return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
 }
 
+// Returns the rectangle with A and B swapped.
+[[nodiscard]] inline ProgressBox turned_around(const ProgressBox& box) {
+  return {box.from_b, box.to_b, box.from_a, box.to_a};
+}
+
 // Trajectory time by which a waiting motion stops before a region. Regions with other motions of
 // the same other arm have slightly different outlines. With this distance they do not begin before
 // the position of the waiting motion.

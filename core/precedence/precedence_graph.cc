@@ -1,104 +1,69 @@
 #include "core/precedence/precedence_graph.h"
 
 #include <algorithm>
-#include <iterator>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace armloom {
-namespace {
-
-struct Interval {
-  Duration from, to;
-};
-
-// Whether arms that rest on a motion of this duration, from the first to the last of `at`, are in
-// the interval; its closed edges are free, but for the motion's own ends and a seam.
-bool rests_in(const Interval& at, const Interval& box, Duration duration, bool seam) {
-  const bool after = box.from < at.to || box.from <= Duration{} || seam;
-  const bool before = at.from < box.to || box.to >= duration;
-  return after && before && box.from <= at.to && at.from <= box.to;
-}
-
-// On which arms it comes right after it.
-std::vector<ArmId> follows_on(const std::vector<CoordinatedMotion>& motions,
-                              const CoordinatedMotion& next, const CoordinatedMotion& before) {
-  std::vector<ArmId> arms;
-  std::ranges::copy_if(next.arms, std::back_inserter(arms), [&](ArmId arm) {
-    const auto takes = [arm](const CoordinatedMotion& motion) {
-      return std::ranges::find(motion.arms, arm) != motion.arms.end();
-    };
-    return takes(before) && std::none_of(motions.begin() + (&before - motions.data()) + 1,
-                                         motions.begin() + (&next - motions.data()), takes);
-  });
-  return arms;
-}
-
-}  // namespace
 
 const CoordinatedMotion* PrecedenceGraph::find(StepId step) const {
   const auto found = std::ranges::find(motions_, step, &CoordinatedMotion::step);
   return found == motions_.end() ? nullptr : &*found;
 }
 
-CoordinatedMotion* PrecedenceGraph::motion(StepId step) {
-  return const_cast<CoordinatedMotion*>(std::as_const(*this).find(step));
+std::size_t PrecedenceGraph::index_of(StepId step) const {
+  return static_cast<std::size_t>(find(step) - motions_.data());
 }
 
 void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
                             const PassingOrders& orders) {
-  for (const CoordinatedMotion& candidate : candidates) {
-    // Its regions say from now on what its arms are in the way of; but for motions of its own arms.
-    for (Blockade& blockade : blockades_) {
-      if (!share_an_arm(*find(blockade.step), candidate)) blockade.leave(candidate.arms);
-    }
-    std::erase_if(blockades_, [](const Blockade& blockade) { return blockade.arms.empty(); });
-    motions_.push_back(candidate);
+  motions_.insert(motions_.end(), candidates.begin(), candidates.end());
+  // The regions of a candidate that takes an arm away tell from now on what that arm is in the way
+  // of.
+  for (Rest& rest : rests_) {
+    const std::size_t held = index_of(rest.order.second());
+    rest.arms = resting_for(motions_, rest.arms, held, held);
   }
+  std::erase_if(rests_, [](const Rest& rest) { return rest.arms.empty(); });
   precedences_ = orders.precedences;
-  std::erase_if(precedences_, [this](const Precedence& precedence) {
-    return !precedence.limit(find(precedence.first())->progress);
-  });
-  renew_held_at();
+  std::erase_if(precedences_,
+                [this](const Precedence& precedence) { return !limit_by(precedence); });
 }
 
 void PrecedenceGraph::progress(StepId step, Duration progress) {
-  CoordinatedMotion* found = motion(step);
-  if (found == nullptr) return;
-  found->progress = std::max(found->progress, progress);
-  found->authority = std::max(found->authority, found->progress);
-}
-
-void PrecedenceGraph::Blockade::leave(const std::vector<ArmId>& left) {
-  std::erase_if(arms, [&](ArmId arm) { return std::ranges::find(left, arm) != left.end(); });
-  if (!arms.empty() && std::ranges::find(arms, *evidence.arm) == arms.end()) {
-    evidence.arm = arms.front();
-  }
-}
-
-bool PrecedenceGraph::waits_for_own_arm(std::size_t index) const {
-  for (std::size_t i = 0; i < index; ++i) {
-    if (share_an_arm(motions_[i], motions_[index])) return true;
-  }
-  return false;
+  if (!holds(step)) return;
+  CoordinatedMotion& motion = motions_[index_of(step)];
+  motion.progress = std::max(motion.progress, progress);
+  motion.authority = std::max(motion.authority, motion.progress);
 }
 
 Duration PrecedenceGraph::limit(StepId step) const {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return Duration{};
-  if (waits_for_own_arm(static_cast<std::size_t>(found - motions_.data()))) return Duration{};
+  const auto index = static_cast<std::size_t>(found - motions_.data());
+  const bool waits_for_own_arm = std::ranges::any_of(
+      found->arms, [&](ArmId arm) { return motion_before(motions_, index, arm).has_value(); });
+  if (waits_for_own_arm) return Duration{};
   Duration limit = found->duration;
+  for (const Rest& rest : rests_) {
+    if (rest.order.second() == step && is_ahead(rest)) limit = std::min(limit, rest.limit());
+  }
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != step) continue;
-    const auto held = precedence.limit(find(precedence.first())->progress);
+    const auto held = limit_by(precedence);
     if (held) limit = std::min(limit, *held);
   }
-  for (const Blockade& blockade : blockades_) {
-    if (blockade.step == step && found->progress < blockade.until) {
-      limit = std::min(limit, blockade.limit);
-    }
-  }
+  return limit;
+}
+
+// Returns the largest authority that the second motion may have; nullopt if there is no limit.
+// While the first motion is on its way to a goal, that goal does not limit more than the order.
+std::optional<Duration> PrecedenceGraph::limit_by(const Precedence& order) const {
+  auto limit = order.limit(find(order.first())->progress);
+  if (limit) return limit;
+  if (const auto goal = goal_in(order)) limit = goal->limit();
   return limit;
 }
 
@@ -107,11 +72,8 @@ std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
   if (found == nullptr) return std::nullopt;
   const Duration at = limit(step);
   if (at >= found->duration) return std::nullopt;
-  for (const Blockade& blockade : blockades_) {
-    if (blockade.step == step && blockade.limit == at && found->progress < blockade.until) {
-      return blockade.evidence;
-    }
-  }
+  const auto rest = rests_ahead(step);
+  if (rest && rest->limit() == at) return rest->blocker();
   for (const Precedence& precedence : precedences_) {
     if (precedence.second() != step) continue;
     if (precedence.limit(find(precedence.first())->progress) != at) continue;
@@ -120,28 +82,33 @@ std::optional<Blocker> PrecedenceGraph::held_back(StepId step) const {
   return std::nullopt;
 }
 
-std::optional<Blocker> PrecedenceGraph::rests_ahead(StepId step) const {
-  const CoordinatedMotion* found = find(step);
-  const Blockade* blockade = found != nullptr ? nearest_blockade(*found) : nullptr;
-  return blockade != nullptr ? std::optional(blockade->evidence) : std::nullopt;
+std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rests_ahead(StepId step) const {
+  std::vector<Rest> rests = rests_before(step);
+  const auto nearest = std::ranges::min_element(rests, {}, &Rest::limit);
+  return nearest != rests.end() ? std::optional(std::move(*nearest)) : std::nullopt;
+}
+
+HeldAt PrecedenceGraph::held_at() const {
+  HeldAt held_at(motions_.size());
+  for (const Rest& rest : rests_before(std::nullopt)) {
+    auto& held = held_at[index_of(rest.order.second())];
+    held = std::min(held.value_or(rest.limit()), rest.limit());
+  }
+  return held_at;
 }
 
 std::vector<Dependency> PrecedenceGraph::dependencies() const {
-  const auto index = [this](StepId step) {
-    return static_cast<std::size_t>(find(step) - motions_.data());
-  };
   std::vector<Dependency> dependencies;
   for (const Precedence& precedence : precedences_) {
-    dependencies.push_back({index(precedence.first()), index(precedence.second()), &precedence});
+    dependencies.push_back(
+        {index_of(precedence.first()), index_of(precedence.second()), &precedence});
   }
   return dependencies;
 }
 
 bool PrecedenceGraph::is_held_by(StepId step, const std::vector<ArmId>& arms) const {
-  return std::ranges::any_of(blockades_, [&](const Blockade& blockade) {
-    return blockade.step == step && std::ranges::any_of(blockade.arms, [&](ArmId arm) {
-             return std::ranges::find(arms, arm) != arms.end();
-           });
+  return std::ranges::any_of(rests_before(step), [&](const Rest& rest) {
+    return std::ranges::find_first_of(rest.arms, arms) != rest.arms.end();
   });
 }
 
@@ -150,125 +117,125 @@ bool PrecedenceGraph::is_acyclic() const {
 }
 
 void PrecedenceGraph::granted(StepId step, Duration authority) {
-  CoordinatedMotion* found = motion(step);
-  if (found == nullptr) return;
+  if (!holds(step)) return;
   if (authority > limit(step)) {
     throw std::logic_error("job " + std::to_string(step.job.value()) +
                            ": authority beyond its limit");
   }
-  found->authority = std::max(found->authority, authority);
+  CoordinatedMotion& motion = motions_[index_of(step)];
+  motion.authority = std::max(motion.authority, authority);
 }
 
 void PrecedenceGraph::set_outlook(StepId step, const Outlook& outlook) {
-  motion(step)->outlook = outlook;
+  motions_[index_of(step)].outlook = outlook;
 }
 
-void PrecedenceGraph::set_priority(StepId step, int priority) { motion(step)->priority = priority; }
+void PrecedenceGraph::set_priority(StepId step, int priority) {
+  motions_[index_of(step)].priority = priority;
+}
 
 void PrecedenceGraph::finish(StepId step) {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return;
-  const bool moves_on = std::ranges::any_of(motions_, [&](const CoordinatedMotion& motion) {
-    return &motion > found && share_an_arm(motion, *found);
-  });
-  if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});
-  for (Blockade& blockade : blockades_) {
-    if (blockade.goal_of == step) blockade.goal_of.reset();  // there they are
-  }
+  come_to_rest(step, found->arms, found->duration, found->duration);
   erase(step);
 }
 
 void PrecedenceGraph::abandon(StepId step, Duration rests_at, Duration farthest) {
   const CoordinatedMotion* found = find(step);
   if (found == nullptr) return;
-  std::erase_if(blockades_, [step](const Blockade& blockade) { return blockade.goal_of == step; });
-  // Who was to pass after it has left the goal of the one before it would wait in vain. Not who
-  // passes before that one comes there.
-  std::vector<ArmId> stand = found->arms;
-  for (const CoordinatedMotion& before : motions_) {
-    if (&before == found) break;
-    const std::vector<ArmId> arms = follows_on(motions_, *found, before);
-    if (arms.empty()) continue;
-    std::erase_if(stand, [&](ArmId arm) { return std::ranges::find(arms, arm) != arms.end(); });
-    block_others(before, {arms, before.duration, before.duration});
-    block_others(*found, {arms, Duration{}, Duration{}, &before});
+  std::map<std::optional<std::size_t>, std::vector<ArmId>> brought_by;
+  for (const ArmId arm : found->arms) {
+    brought_by[motion_before(motions_, index_of(step), arm)].push_back(arm);
   }
-  if (!stand.empty()) block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});
+  for (const auto& [before, arms] : brought_by) {
+    if (before) {
+      come_to_rest(step, arms, Duration{}, Duration{}, before);
+    } else {
+      come_to_rest(step, arms, rests_at, std::max(rests_at, farthest));
+    }
+  }
   erase(step);
 }
 
-// Whether it rests there now or will.
-void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& rest) {
-  const auto [arms, at, farthest, brought_by] = rest;
-  const bool is_there = motion.progress >= at;
-  for (const Precedence& precedence : precedences_) {
-    const bool first = precedence.first() == motion.step;
-    if (!first && (precedence.second() != motion.step || !is_there)) continue;
-    const StepId other = first ? precedence.second() : precedence.first();
-    if (brought_by != nullptr && !share_an_arm(*brought_by, *find(other))) continue;
-    const ConflictRegion& region = precedence.region();
-    const Duration passed = find(other)->progress;
-    std::vector<ProgressBox> last;  // boxes that end where it rests farthest
-    std::ranges::copy_if(region.boxes, std::back_inserter(last), [&](const ProgressBox& box) {
-      return (first ? box.to_a : box.to_b) == farthest;
-    });
-    std::optional<Blockade> blockade;
-    for (const ProgressBox& box : region.boxes) {
-      const Duration from = first ? box.from_a : box.from_b, to = first ? box.to_a : box.to_b;
-      const Duration own_from = first ? box.from_b : box.from_a;
-      const Duration own_to = first ? box.to_b : box.to_a;
-      // Where another box ends that it is in the way of too, the edge is none of the outline.
-      const bool seam = std::ranges::any_of(last, [&](const ProgressBox& other_box) {
-        return (first ? other_box.from_b : other_box.from_a) <= own_to &&
-               own_from <= (first ? other_box.to_b : other_box.to_a);
-      });
-      if (own_to <= passed || !rests_in({at, farthest}, {from, to}, motion.duration, seam))
-        continue;
-      if (!blockade) {
-        Blocker evidence{other,
-                         std::nullopt,
-                         arms.front(),
-                         first ? turned_around(region.proximity) : region.proximity,
-                         first ? region.time_b : region.time_a,
-                         first ? region.time_a : region.time_b};
-        const auto named = evidence.proximity.arm_b;
-        if (named && std::ranges::find(arms, *named) != arms.end()) evidence.arm = named;
-        const CoordinatedMotion* brings = is_there ? brought_by : &motion;
-        const auto goal_of = brings != nullptr ? std::optional(brings->step) : std::nullopt;
-        blockade = Blockade{arms, goal_of, other, own_from, own_to, evidence};
-      }
-      blockade->limit = std::min(blockade->limit, std::max(Duration{}, own_from - kShortOf));
-      blockade->until = std::max(blockade->until, own_to);
-    }
-    if (blockade) blockades_.push_back(std::move(*blockade));
+// With `brought_by`, that motion brings the arms there. Then this is only about motions that share
+// an arm with it, because they have no regions with it. For all others its goal tells the same.
+void PrecedenceGraph::come_to_rest(StepId step, const std::vector<ArmId>& arms, Duration at,
+                                   Duration farthest, std::optional<std::size_t> brought_by) {
+  for (const Precedence& order : precedences_) {
+    const bool first = order.first() == step;
+    if (!first && (order.second() != step || brought_by)) continue;
+    const bool is_told = brought_by && !share_an_arm(motions_[*brought_by], *find(order.second()));
+    if (is_told) continue;
+    if (auto rest = rest_in(order, step, arms, at, farthest)) rests_.push_back(std::move(*rest));
   }
+}
+
+// Returns the rest of these arms on the motion `resting`, one of the two that have the order;
+// nullopt if the other one has passed it, does not meet it, or waits until it is left.
+std::optional<PrecedenceGraph::Rest> PrecedenceGraph::rest_in(const Precedence& order,
+                                                              StepId resting,
+                                                              const std::vector<ArmId>& arms,
+                                                              Duration at,
+                                                              Duration farthest) const {
+  const bool first = order.first() == resting;
+  const std::size_t own = index_of(resting),
+                    other = index_of(first ? order.second() : order.first());
+  std::vector<ArmId> staying = resting_for(motions_, arms, own, other);
+  if (staying.empty()) return std::nullopt;
+  ConflictRegion region = Precedence(order.first(), order.second(), order.region(), first).region();
+  std::erase_if(region.boxes, [&](const ProgressBox& box) {
+    const bool is_left = box.to_a <= at && box.to_a < motions_[own].duration;
+    return is_left || farthest < box.from_a || box.to_b <= motions_[other].progress;
+  });
+  if (region.boxes.empty()) return std::nullopt;
+  for (ProgressBox& box : region.boxes) box.to_a = Duration::max();
+  return Rest{std::move(staying), Precedence(resting, motions_[other].step, region, true)};
+}
+
+// Returns the rest of the first motion's arms at its end, now or later; nullopt as rest_in().
+std::optional<PrecedenceGraph::Rest> PrecedenceGraph::goal_in(const Precedence& order) const {
+  const CoordinatedMotion& first = *find(order.first());
+  if (order.steps().back().until < first.duration) return std::nullopt;
+  return rest_in(order, first.step, first.arms, first.duration, first.duration);
+}
+
+// Returns true if the second motion has not passed the rest.
+bool PrecedenceGraph::is_ahead(const Rest& rest) const {
+  const Duration passed = find(rest.order.second())->progress;
+  return std::ranges::any_of(rest.order.region().boxes,
+                             [&](const ProgressBox& box) { return passed < box.to_b; });
+}
+
+// Returns the rests that the motion, or with nullopt any motion, has still to pass: arms that rest
+// in its path, and goals where arms will.
+std::vector<PrecedenceGraph::Rest> PrecedenceGraph::rests_before(std::optional<StepId> step) const {
+  std::vector<Rest> rests;
+  for (const Rest& rest : rests_) {
+    if ((!step || rest.order.second() == *step) && is_ahead(rest)) rests.push_back(rest);
+  }
+  for (const Precedence& order : precedences_) {
+    if (step && order.second() != *step) continue;
+    if (auto goal = goal_in(order)) rests.push_back(std::move(*goal));
+  }
+  return rests;
+}
+
+Blocker PrecedenceGraph::Rest::blocker() const {
+  Blocker blocker = blocker_of(order);
+  blocker.other.reset();
+  const auto named = blocker.proximity.arm_b;
+  const bool is_resting = named && std::ranges::find(arms, *named) != arms.end();
+  blocker.arm = is_resting ? *named : arms.front();
+  return blocker;
 }
 
 void PrecedenceGraph::erase(StepId step) {
   std::erase_if(precedences_, [step](const Precedence& precedence) {
     return precedence.first() == step || precedence.second() == step;
   });
-  std::erase_if(blockades_, [step](const Blockade& blockade) { return blockade.step == step; });
+  std::erase_if(rests_, [step](const Rest& rest) { return rest.order.second() == step; });
   std::erase_if(motions_, [step](const CoordinatedMotion& motion) { return motion.step == step; });
-  renew_held_at();
-}
-
-const PrecedenceGraph::Blockade* PrecedenceGraph::nearest_blockade(
-    const CoordinatedMotion& motion) const {
-  const Blockade* nearest = nullptr;
-  for (const Blockade& blockade : blockades_) {
-    if (blockade.step != motion.step || motion.progress >= blockade.until) continue;
-    if (nearest == nullptr || blockade.limit < nearest->limit) nearest = &blockade;
-  }
-  return nearest;
-}
-
-void PrecedenceGraph::renew_held_at() {
-  held_at_.clear();
-  for (const CoordinatedMotion& motion : motions_) {
-    const Blockade* nearest = nearest_blockade(motion);
-    held_at_.push_back(nearest != nullptr ? std::optional(nearest->limit) : std::nullopt);
-  }
 }
 
 Blocker blocker_of(const Precedence& precedence) {

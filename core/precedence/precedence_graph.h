@@ -13,6 +13,17 @@ namespace armloom {
 // combination. The graph is acyclic after every admission, so every motion can reach its end. Pure.
 class PrecedenceGraph {
  public:
+  // Arms that rest in the path of the order's second motion, or will where the first one ends. The
+  // region has only the boxes that the arms are in, and these do not end.
+  struct Rest {
+    std::vector<ArmId> arms;
+    Precedence order;
+
+    // Returns the progress up to which the second motion may go.
+    [[nodiscard]] Duration limit() const { return *order.limit({}); }
+    [[nodiscard]] Blocker blocker() const;  // names one of the arms
+  };
+
   explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}
 
   [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
@@ -30,7 +41,7 @@ class PrecedenceGraph {
   // to this graph.
   [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
                                        const std::vector<PairRegions>& regions) const {
-    return {motions_, precedences_, held_at_, candidates, regions, work_behind_};
+    return {motions_, precedences_, held_at(), candidates, regions, work_behind_};
   }
   void admit(const std::vector<CoordinatedMotion>& candidates, const PassingOrders& orders);
 
@@ -42,11 +53,11 @@ class PrecedenceGraph {
   // Returns what holds the motion at its limit; nullopt if it may go to its end, or if it only
   // waits for an earlier motion of its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(StepId step) const;
-  // Returns by motion where an arm at rest in its path holds it (the limit of rests_ahead()).
-  [[nodiscard]] const HeldAt& held_at() const { return held_at_; }
-  // Returns the arm at rest that holds the motion; nullopt if there is none. No admitted motion
-  // will move that arm.
-  [[nodiscard]] std::optional<Blocker> rests_ahead(StepId step) const;
+  // Returns the first rest that holds the motion; nullopt if there is none. No admitted motion will
+  // move these arms away.
+  [[nodiscard]] std::optional<Rest> rests_ahead(StepId step) const;
+  // Returns by motion the limit of rests_ahead().
+  [[nodiscard]] HeldAt held_at() const;
   // Returns the precedences, with motions as indices into motions(), for predict().
   [[nodiscard]] std::vector<Dependency> dependencies() const;
   // Returns true if one of the arms rests, or will rest, in the motion's path.
@@ -63,42 +74,26 @@ class PrecedenceGraph {
   // Remove a motion that has ended: at its goal (finish), or at another progress `rests_at`
   // (abandon). Motions that would pass an arm that now rests in their path stop before it until
   // that arm moves again. The arms of one motion may rest at different progress, from `rests_at` up
-  // to `farthest`.
+  // to `farthest`. Precondition of abandon: no admitted motion follows it on its arms.
   void finish(StepId step);
   void abandon(StepId step, Duration rests_at, Duration farthest = {});
 
  private:
-  // Arms that came to rest, or will, in the path of the admitted motion `step`. The blockade ends
-  // when all of them have left.
-  struct Blockade {
-    std::vector<ArmId> arms;
-    std::optional<StepId> goal_of;  // if set: the arms will rest there when this motion has ended
-    StepId step;
-    Duration limit;
-    Duration until;    // progress at which `step` has passed the arms
-    Blocker evidence;  // names one of these arms
-
-    void leave(const std::vector<ArmId>& left);
-  };
-  [[nodiscard]] CoordinatedMotion* motion(StepId step);
-  [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
-  struct Rest {
-    std::vector<ArmId> arms;
-    Duration at, farthest;  // progress of the last and of the foremost arm
-    // Set if the arms rest at the motion's start because `brought_by`, their motion before it,
-    // brings them there. Only motions that share an arm with `brought_by` are then blocked: they
-    // have no regions with `brought_by` itself.
-    const CoordinatedMotion* brought_by = nullptr;
-  };
-  [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
-  void block_others(const CoordinatedMotion& motion, const Rest& rest);
+  [[nodiscard]] std::size_t index_of(StepId step) const;  // precondition: holds(step)
+  [[nodiscard]] std::optional<Rest> rest_in(const Precedence& order, StepId resting,
+                                            const std::vector<ArmId>& arms, Duration at,
+                                            Duration farthest) const;
+  [[nodiscard]] std::optional<Duration> limit_by(const Precedence& order) const;
+  [[nodiscard]] bool is_ahead(const Rest& rest) const;
+  [[nodiscard]] std::optional<Rest> goal_in(const Precedence& order) const;
+  [[nodiscard]] std::vector<Rest> rests_before(std::optional<StepId> step) const;
+  void come_to_rest(StepId step, const std::vector<ArmId>& arms, Duration at, Duration farthest,
+                    std::optional<std::size_t> brought_by = {});
   void erase(StepId step);
-  void renew_held_at();
 
   std::vector<CoordinatedMotion> motions_;  // of one arm: in running order
   std::vector<Precedence> precedences_;
-  std::vector<Blockade> blockades_;
-  HeldAt held_at_;
+  std::vector<Rest> rests_;
   std::vector<Duration> work_behind_;
 };
 

@@ -11,6 +11,7 @@ from fault_tree import build, copy, failed_in, put_in, run
 
 ADMISSION, TRANSITIONS = 'core/scheduler/admission.cc', 'core/jobs/transitions.cc'
 GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
+CHAINS = 'core/precedence/motion_chains.cc'
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
@@ -24,10 +25,10 @@ QUIET = [
 SCHEDULER = [
     ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
     ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
-    ('a goal that no motion leaves blocks no motion', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
+    ('a goal that no motion leaves blocks no motion', CHAINS, 'if (next == motions.size()) return true;', 'if (next == motions.size()) return !FAULT;'),
     ('a start where the arm rests blocks no motion', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
     ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
-    ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
+    ('a rest on a path is forgotten', GRAPH, 'if (auto rest = rest_in(order, step, arms, at, farthest)) rests_', 'if (auto rest = rest_in(order, step, arms, at, farthest); rest && !FAULT) rests_'),
     ('a canceled motion keeps its end', TRANSITIONS, '  } else {\n    leave_graph(step);\n  }', '  } else if (FAULT) {\n    state_.graph.finish(step.id);\n  } else {\n    leave_graph(step);\n  }'),
     ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs', 'if (!FAULT && std::ranges::any_of(step.leg.arms, is_named)) state.jobs'),
     ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
@@ -38,13 +39,13 @@ SCHEDULER = [
     ('a waiting arm stops inside the region', PRECEDENCE, 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
     ('arms at rest in the way are ignored', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
     ('only the first order of a motion applies', GRAPH, '    if (precedence.second() != step) continue;\n    const auto held', '    if (precedence.second() != step || (FAULT && limit < found->duration)) continue;\n    const auto held'),
-    ('an order ends when its authority is granted', GRAPH, 'precedence.limit(find(precedence.first())->progress);\n    if (held', 'precedence.limit(FAULT ? find(precedence.first())->authority : find(precedence.first())->progress);\n    if (held'),
+    ('an order ends when its authority is granted', GRAPH, 'order.limit(find(order.first())->progress);', 'order.limit(FAULT ? find(order.first())->authority : find(order.first())->progress);'),
     ('an order ends when its first box is passed', PRECEDENCE, '  return step == steps_.end() ?', '  return step == steps_.end() || (FAULT && step != steps_.begin()) ?'),
     ('an order ends halfway through the region', PRECEDENCE, '  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);', '  if (FAULT) for (ProgressBox& box : boxes) box.to_a -= (box.to_a - box.from_a) / 2;\n  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);'),
     ('a waiting arm continues to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
     ('a region loses its first box', PRECEDENCE, '  Duration begins{};  //', '  if (FAULT && boxes.size() > 1) boxes.pop_back();\n  Duration begins{};  //'),
     ('a stopped motion continues without orders', 'core/scheduler/authority.cc', '  const Duration limit = state->graph.limit(step.id);\n  if (limit <= step.progress', '  const Duration limit = FAULT && step.has_started() ? step.trajectory->duration() : state->graph.limit(step.id);\n  if (limit <= step.progress'),
-    ('a canceled motion is assumed to rest at its start', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
+    ('a canceled motion is assumed to rest at its start', GRAPH, 'come_to_rest(step, arms, rests_at, std::max(rests_at, farthest));', 'come_to_rest(step, arms, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest));'),
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
     ('only one of several regions of a pair applies', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
     ('motions under way are assumed to be at their ends', QUESTIONS, '                .progress = step.progress,\n                .to_come', '                .progress = FAULT && step.progress > Duration{} ? step.trajectory->duration() : step.progress,\n                .to_come'),

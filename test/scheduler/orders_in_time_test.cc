@@ -220,22 +220,27 @@ TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
   const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
   EXPECT_THAT(chains.before(0), ElementsAre());
+  EXPECT_THAT(chains.before(1), ElementsAre());
   EXPECT_THAT(chains.before(2), ElementsAre(0u, 1u));
   EXPECT_THAT(chains.before(3), ElementsAre(2u));
-  for (const std::size_t first : {0u, 1u}) {
-    EXPECT_TRUE(chains.stands(first));
-    EXPECT_TRUE(chains.moves_on(first));
-  }
-  EXPECT_FALSE(chains.stands(2));
-  EXPECT_FALSE(chains.moves_on(2)) << "one of its arms has no next motion";
-  EXPECT_FALSE(chains.moves_on(3));
 }
 
-TEST(MotionChains, TeamIsPresentWhileOneOfItsArmsIs) {
+// ---- Arms that no motion takes away ----
+
+TEST(RestingFor, ReturnsArmsWithoutANextMotion) {
   const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
-  const MotionChains chains({motion(kA, 0, 1s), team});
-  EXPECT_TRUE(chains.stands(1));
-  EXPECT_TRUE(chains.moves_on(0));
+  const std::vector<CoordinatedMotion> motions{motion(kA, 0, 1s), team, motion(kB, 2, 1s),
+                                               motion(kNext, 0, 1s)};
+  EXPECT_THAT(resting_for(motions, motions[0].arms, 0, 2), ElementsAre());
+  EXPECT_THAT(resting_for(motions, team.arms, 1, 2), ElementsAre(ArmId{1}));
+}
+
+TEST(RestingFor, ReturnsArmsWhoseNextMotionFollowsTheOtherMotion) {
+  const CoordinatedMotion team{.step = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
+  const auto behind = {motion(kA, 0, 1s), motion(kB, 1, 1s), team};
+  EXPECT_THAT(resting_for(behind, {ArmId{0}}, 0, 1), ElementsAre(ArmId{0}));
+  const auto ahead = {motion(kA, 0, 1s), team, motion(kB, 1, 1s)};
+  EXPECT_THAT(resting_for(ahead, {ArmId{0}}, 0, 2), ElementsAre());
 }
 
 }  // namespace

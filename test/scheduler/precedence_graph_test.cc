@@ -118,6 +118,25 @@ TEST_F(Graph, AbandonedMotionBlocksOnlyMotionsThatPassItsRest) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
+TEST_F(Graph, AbandonedMotionBlocksOnlyTheBoxesThatItHasNotLeft) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{1s, 2s, 1s, 2s}, {3s, 4s, 2s, 3s}})}}});
+  graph.progress(kA, 2500ms);
+  graph.abandon(kA, 2500ms);
+  EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
+}
+
+// B would pass without a wait after A has ended and before Next begins. But the arm rests there.
+TEST_F(Graph, RegionsThatMeetAtARestShareOneOrder) {
+  admit({motion(kA, 0, 5s)}, {});
+  const auto orders = admit({motion(kB, 1, 6s), motion(kNext, 0, 20s)},
+                            {{kB, kA, {region({{5200ms, 5400ms, 4s, 5s}})}},
+                             {kB, kNext, {region({{5200ms, 5400ms, 0s, 10s}})}}});
+  ASSERT_EQ(orders.precedences.size(), 2u);
+  EXPECT_EQ(orders.precedences[0].first() == kB, orders.precedences[1].first() == kB);
+}
+
 TEST_F(Graph, CancelingTheNextMotionKeepsTheGoalBlocked) {
   let_b_wait_until_next_has_left();
   graph.abandon(kNext, 0s);
@@ -211,6 +230,33 @@ TEST_F(Graph, UnreachedGoalDoesNotBlockTheFirstMotion) {
   EXPECT_EQ(graph.limit(kA), 18s - kShortOf);
 }
 
+TEST_F(Graph, GoalStaysBlockedUntilItsMotionIsFinished) {
+  let_b_wait_until_next_has_left();
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf) << "at its goal, but not finished";
+  admit({motion(kC, 2, 5s)}, {});
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  graph.finish(kA);
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+}
+
+// A stalls, so B is to pass first, before A rests at its goal.
+TEST_F(Graph, ReversedOrderReleasesTheMotionThatWaitedForAnAbandonedMotion) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 3s);
+  graph.set_outlook(kA, {.keeps_its_place = true});
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 4s)},
+        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 1s}})}}});
+  graph.abandon(kNext, 0s);
+  ASSERT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0}) << "it will rest there";
+  graph.set_outlook(kA, {.stands_for = 60s});
+  admit({}, {});
+  EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
+  EXPECT_EQ(graph.limit(kB), 5s);
+}
+
 // ---- Motions of several arms ----
 
 CoordinatedMotion of_both(StepId step, Duration duration) {
@@ -225,6 +271,28 @@ TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   graph.progress(kA, 1980ms);
   graph.abandon(kA, 1980ms, 2040ms);
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+}
+
+// The team moves the arm that rests in B's way, but only after B. So does the motion behind it.
+TEST_F(Graph, ArmLeavesARestOnlyWithItsNextMotion) {
+  let_b_wait_until_next_has_left();
+  graph.abandon(kNext, 0s);
+  graph.progress(kA, 5s);
+  graph.finish(kA);
+  admit({of_both(kC, 5s)}, {});
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  admit({motion(kNext, 0, 4s)}, {});
+  EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
+  EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
+}
+
+// The team follows B. It would have brought its other arm to the start of Next, in B's way.
+TEST_F(Graph, ArmThatALaterMotionBringsBlocksNothing) {
+  admit({motion(kB, 0, 5s), of_both(kA, 5s), motion(kNext, 1, 5s)},
+        {{kNext, kB, {region({{0s, 1s, 2s, 3s}})}}});
+  ASSERT_EQ(graph.limit(kB), 5s);
+  graph.abandon(kNext, 0s);
+  EXPECT_EQ(graph.limit(kB), 5s);
 }
 
 // The motion that moves A's arm away also moves B's arm, so it comes after B.
