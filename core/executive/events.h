@@ -24,7 +24,7 @@ namespace armloom {
 // freely between threads. Times are cell time; the server adds wall time.
 struct WaitView {
   Wait::Kind kind;
-  std::string job;
+  std::string job;  // io: the signal
   std::string arm;
   std::vector<std::string> links;  // own, other; or empty
   std::optional<double> own_time_s;

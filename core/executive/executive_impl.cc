@@ -18,14 +18,13 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
               .changed = [this](ClearanceQuery& query) { scene_has_changed(query); }}),
-      signals_(
-          cell_->io, std::move(options.write_signal),
-          {.asked =
-               [this](const ExecutiveInput& input) {
-                 note(input);
-                 return clock_.now;
-               },
-           .changed = [this](SignalId signal) { publisher_.tell_signal(signal, clock_.now); }}),
+      signals_(cell_->io, std::move(options.write_signal),
+               {.asked =
+                    [this](const ExecutiveInput& input) {
+                      note(input);
+                      return clock_.now;
+                    },
+                .changed = [this](SignalId signal) { signal_changed(signal); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
@@ -47,6 +46,9 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       watch_(cell_, scene_.scene()),
       links_(cell_->arms.size()) {
   follow_policy();
+  for (const SignalView& signal : signals_.views()) {
+    step(SignalChanged{signal.name, signal.value, signal.detail});
+  }
 }
 
 void Executive::Impl::note(ExecutiveInput input) const {
@@ -313,6 +315,12 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   watch_.follow(query, scene_.scene());
   publisher_.scene_has_changed(clock_.now);
   if (is_within_reach) step(SceneChanged{arms});
+}
+
+void Executive::Impl::signal_changed(SignalId signal) {
+  publisher_.tell_signal(signal, clock_.now);
+  const SignalView& now = signals_.views()[signal.index()];
+  step(SignalChanged{now.name, now.value, now.detail});
 }
 
 // ---- What is to be seen ----

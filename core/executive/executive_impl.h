@@ -114,6 +114,7 @@ class Executive::Impl {
   void locate(ArmId arm);
   void act_on(const std::vector<MonitorFinding>& found);
   void scene_has_changed(ClearanceQuery& query);
+  void signal_changed(SignalId signal);
 
   // Set when the shutdown has begun.
   struct WindDown {

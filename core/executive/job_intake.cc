@@ -72,6 +72,23 @@ Problem key_in_use(const std::string& key) {
       "id \"" + key + "\" is in use by another job: give another one, or leave \"id\" out", key};
 }
 
+void find_bad_condition(const Cell& cell, const JobTerms& terms, Problems& problems) {
+  if (!terms.start_when) return;
+  const auto& [name, value] = *terms.start_when;
+  const auto signal = cell.io.find_signal(name);
+  if (!signal) {
+    problems.push_back({ProblemKind::invalid, "unknown-signal", "/start_when/io",
+                        "the cell has no signal \"" + name + "\": GET /io lists them", name});
+  } else if (type_of(value) != cell.io.signal(*signal).value_type()) {
+    const bool is_flag = cell.io.signal(*signal).value_type() == SignalType::boolean;
+    problems.push_back({ProblemKind::invalid, "wrong-type", "/start_when/value",
+                        "signal " + name + " takes " +
+                            (is_flag ? "true or false" : "a whole number from 0 to 65535") +
+                            ", found " + text_of(value),
+                        text_of(value)});
+  }
+}
+
 }  // namespace
 
 std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
@@ -98,6 +115,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   const bool taken = jobs_.is_taken(request.key) || ahead.keys.contains(request.key);
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
+  find_bad_condition(*cell_, request.terms, problems);
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
   if (!request.move_to && !request.arms.empty()) {

@@ -81,6 +81,7 @@ std::string deadlock_text(const std::vector<std::string>& cycle, const Cell& cel
 WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool in_vain) {
   WaitView view{.kind = wait.kind, .detail = wait.detail};
   if (wait.job) view.job = names.key(*wait.job);
+  if (wait.kind == Wait::Kind::io) view.job = wait.signal;
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
   std::optional<std::string> opening;
   if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(wait, in_vain, cell, names);

@@ -144,6 +144,12 @@ struct SetSpeed {
   std::optional<ArmId> arm;
   double share;
 };
+// A signal of the cell has changed.
+struct SignalChanged {
+  std::string signal;                // name
+  std::optional<SignalValue> value;  // nullopt: not known
+  std::string detail;                // why it is not known
+};
 // Sets the policy (not null). Ignored while a motion is admitted, because its passing orders belong
 // to the policy that chose them.
 struct ChangePolicy {
@@ -157,9 +163,9 @@ struct Interrupt {
 // The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
-using Input =
-    std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
-                 Resume, Located, Unlocated, SceneChanged, SetSpeed, ChangePolicy, Interrupt, Wake>;
+using Input = std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade,
+                           MotionReport, Stop, Resume, Located, Unlocated, SceneChanged, SetSpeed,
+                           SignalChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

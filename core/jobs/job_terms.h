@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/base/time.h"
+#include "core/model/io_description.h"
 
 namespace armloom {
 
@@ -36,6 +38,12 @@ enum class MoveToStart {
   return nullptr;
 }
 
+// A value that a signal must have.
+struct SignalCondition {
+  std::string signal;  // name
+  SignalValue value;
+};
+
 // A client's terms for a job's turn. server/messages/job_terms.h defines the JSON.
 struct JobTerms {
   int priority = 0;  // larger goes first
@@ -46,6 +54,8 @@ struct JobTerms {
   // The job may change places with another reorderable job of its arm. Both must begin and end at
   // the same position.
   bool reorderable = false;
+  // The job does not start while the signal has another value, or an unknown one.
+  std::optional<SignalCondition> start_when = {};
 };
 
 // The terms that can change while the job has not ended; nullopt: unchanged.

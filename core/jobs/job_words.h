@@ -58,7 +58,7 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard, speed };
+  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard, speed, io };
   Kind kind;
   std::optional<JobId> job;  // job, predecessor, capacity
   // arm, stop; speed: if it is the arm's override; job: the other arm that comes too close
@@ -66,9 +66,11 @@ struct Wait {
   // job, arm, object: the pair of links that comes too close; predecessor: the same, if this job
   // would end in the path of that job
   std::optional<Proximity> proximity;
-  Duration own_time{};      // with proximity: time in this job's trajectory
-  Duration other_time{};    // and in the other trajectory
-  std::string detail = {};  // stop: its cause; speed: the remedy; predecessor: why it goes first
+  Duration own_time{};    // with proximity: time in this job's trajectory
+  Duration other_time{};  // and in the other trajectory
+  // stop: its cause; speed: the remedy; predecessor: why it goes first; io: what the signal is
+  std::string detail = {};
+  std::string signal = {};        // io
   bool has_no_way_aside = false;  // arm: all retreats of that arm were tried
 
   bool operator==(const Wait&) const = default;
@@ -76,7 +78,7 @@ struct Wait {
   // no event if only these have changed.
   [[nodiscard]] bool same_cause(const Wait& other) const {
     return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&
-           has_no_way_aside == other.has_no_way_aside;
+           signal == other.signal && has_no_way_aside == other.has_no_way_aside;
   }
 };
 [[nodiscard]] constexpr const char* to_string(Wait::Kind kind) {
@@ -101,6 +103,8 @@ struct Wait {
       return "guard";
     case Wait::Kind::speed:
       return "speed";
+    case Wait::Kind::io:
+      return "io";
   }
   return nullptr;
 }

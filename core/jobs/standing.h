@@ -13,6 +13,8 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 [[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Step& step);
 // Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, another
 // arm whose position is not known, or a speed override of 0. nullopt if there is none.
+// Returns what the job waits for if it has not started and JobTerms::start_when does not hold.
+[[nodiscard]] std::optional<Wait> signal_wait(const State& state, const Step& step);
 [[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Step& step);
 // Returns what an admitted job at its limit waits for; nullopt if it moves or is about to.
 [[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Step& step);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <utility>
 
 namespace armloom {
 
@@ -35,6 +36,18 @@ void StateWriter::set_speed(const SetSpeed& input) {
   state_.speed.set(input.arm, input.share, state_.now);
   state_.expected.spoil();
   ++state_.changes_;
+}
+
+void StateWriter::set_signal(const SignalChanged& input) {
+  SignalNow& known = state_.signals[input.signal];
+  known.detail = input.detail;
+  const auto before = std::exchange(known.value, input.value);
+  for (const Step& step : state_.jobs.of(state_.jobs.active())) {
+    const auto& wanted = step.job->terms.start_when;
+    if (!wanted || wanted->signal != input.signal) continue;
+    state_.jobs.explain(step);
+    if ((before == wanted->value) != (known.value == wanted->value)) ++state_.changes_;
+  }
 }
 
 void StateWriter::locate(const Located& input) {

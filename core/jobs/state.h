@@ -1,7 +1,10 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +28,12 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
+// What is known of a signal.
+struct SignalNow {
+  std::optional<SignalValue> value;
+  std::string detail;  // why the value is not known
+};
+
 // The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
 // copy is independent of the original; Trial works on such a copy.
 struct State {
@@ -37,8 +46,9 @@ struct State {
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
   Round round = {};
-  Version scene_epoch = 0;  // the version since which the scene is unchanged
-  TimePoint now{};          // of the present step
+  std::map<std::string, SignalNow> signals = {};  // by name; those that were reported
+  Version scene_epoch = 0;                        // the version since which the scene is unchanged
+  TimePoint now{};                                // of the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),
@@ -103,6 +113,8 @@ class StateWriter {
   // Precondition: no motion is admitted.
   void change_policy(std::shared_ptr<const Policy> policy);
   void set_speed(const SetSpeed& input);
+  // Makes open answers stale if a job may start now, or may start no longer.
+  void set_signal(const SignalChanged& input);
   void set_round(Round round) { state_.round = std::move(round); }
   void locate(const Located& input);
   // Replaces what the choice of orders knows about the admitted motion, and about other work.

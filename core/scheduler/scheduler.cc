@@ -91,6 +91,8 @@ void take(Transitions& state, const SceneChanged& input) {
   }
 }
 
+void take(Transitions& state, const SignalChanged& input) { state.set_signal(input); }
+
 void take(Transitions& state, const ChangePolicy& input) {
   if (!state->graph.motions().empty()) return;
   state.change_policy(input.policy);

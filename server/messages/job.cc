@@ -185,7 +185,8 @@ FormatPtr<WaitView> wait_format() {
       "Wait", "A reason to wait, with the evidence.",
       object<WaitView>({
           output_only("kind", &WaitView::kind, choice<Kind>()),
-          output_only("id", &WaitView::job, text_or_null(), "Id of the other job"),
+          output_only("id", &WaitView::job, text_or_null(),
+                      "Id of the other job; for kind io the name of the signal"),
           output_only("arm", &WaitView::arm, text_or_null(), "Name of the other arm"),
           output_only(
               "links", &WaitView::links, list(text(), {.most = 2}),

@@ -1,6 +1,8 @@
 #include "server/messages/job_terms.h"
 
+#include "server/codec/io_format.h"
 #include "server/codec/later_part.h"
+#include "server/codec/object_format.h"
 #include "server/codec/part_groups.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
@@ -16,6 +18,14 @@ constexpr int kPriorityMax = 1'000'000;
 
 FormatPtr<int> priority_format() { return integer(-kPriorityMax, kPriorityMax); }
 FormatPtr<Duration> backlog_timeout_format() { return seconds({0.0, kTimeMax_s}); }
+
+FormatPtr<SignalCondition> signal_condition_format() {
+  using Condition = SignalCondition;
+  return object<Condition>({
+      required("io", &Condition::signal, name(), "Name of the input or output"),
+      required("value", &Condition::value, signal_value_format(), "Value at which the job starts"),
+  });
+}
 
 }  // namespace
 
@@ -35,6 +45,9 @@ PartPtr<JobTerms> job_terms_part() {
       omit_default("reorderable", &Terms::reorderable, false, flag(),
                    "true: the scheduler may reorder this job among reorderable jobs of the same "
                    "arm that begin and end at the same configuration"),
+      field("start_when", &Terms::start_when, signal_condition_format(),
+            "The job does not start while the signal has another value. It keeps its place in the "
+            "queue of its arm"),
   });
 }
 

@@ -49,9 +49,10 @@ class Metrics::Impl {
     for (const JobState state : kJobEnds) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
-    for (const Wait::Kind kind : {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object,
-                                  Wait::Kind::predecessor, Wait::Kind::capacity, Wait::Kind::stop,
-                                  Wait::Kind::plan, Wait::Kind::guard, Wait::Kind::speed}) {
+    for (const Wait::Kind kind :
+         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::predecessor,
+          Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard,
+          Wait::Kind::speed, Wait::Kind::io}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
     for (const MonitorFinding::Kind kind : kValues<MonitorFinding::Kind>) {

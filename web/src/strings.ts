@@ -868,6 +868,7 @@ export const kText = {
     short_check: 'is being checked',
     short_guard: 'blocked by the authority guard',
     short_speed: 'speed override is 0 %',
+    for_signal: (name: string, detail: string) => (detail === '' ? `waits for the signal ${name}` : detail),
     past: (words: string, duration: string) => `${words} (${duration})`,
     was_waiting: 'waited',
   },

@@ -76,6 +76,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'stop': return words.for_resume(w.arm ?? words.the_cell, w.detail ?? '');
     case 'guard': return words.guard(String(w.detail));
     case 'speed': return words.for_speed(w.arm === null ? words.the_cell : shown_name(w.arm));
+    case 'io': return words.for_signal(shown_name(w.id ?? ''), shown_text(w.detail ?? ''));
   }
 }
 
@@ -187,6 +188,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'predecessor': return first.id === null ? words.turn : words.behind(short_id(first.id));
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
+    case 'io': return words.short_for(shown_name(first.id ?? ''));
   }
 }
 

@@ -116,6 +116,12 @@ Closed stop(const Look& look, const Step& step) {
   return FoundWaits(std::move(*wait));
 }
 
+Closed signal(const Look& look, const Step& step) {
+  auto wait = signal_wait(look.state, step);
+  if (!wait) return std::nullopt;
+  return FoundWaits(std::move(*wait));
+}
+
 Closed place(const Look& look, const Step& step) {
   const auto taken_by = place_taken_by(look.state, step);
   if (!taken_by) return std::nullopt;
@@ -184,8 +190,8 @@ Closed aging(const Look& look, const Step& step) {
   return FoundWaits(step.judgement().found);  // the older one may be about to go
 }
 
-// In the order in which they are checked. Three have no edges: the planner answers; an operator
-// acts; nobody younger holds back an aged job or the jobs that must precede it.
+// In the order in which they are checked. Four have no edges: the planner answers; an operator or
+// an input acts; nobody younger holds back an aged job or the jobs that must precede it.
 constexpr Gate kGates[] = {
     // another job of its arm precedes it; edges: add_behind(), queue by queue
     {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
@@ -199,6 +205,8 @@ constexpr Gate kGates[] = {
     {lets_pass, add_lets_pass, EndedBy::job, Blocks::start},
     // one of its arms is stopped
     {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
+    // an input does not have the value at which the job starts
+    {signal, nullptr, EndedBy::client, Blocks::start},
     // the policy allows no further job at the same time
     {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},
     // checked and not admitted; put_off() starts its age

@@ -43,7 +43,7 @@ enum class EndedBy {
   job,     // another job, by moving or ending
   choice,  // the choice of another job's arm, for which no job needs to move
   planner,
-  client,  // an operator
+  client,  // an operator, or a signal
 };
 // A blocking condition: a row of the table in gates.cc. All who ask for conditions read this table.
 struct Gate {
