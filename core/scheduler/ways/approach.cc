@@ -26,8 +26,8 @@ bool send_to_start(Transitions& state, const Step& head, ArmId arm) {
   if (!way) return false;
   Submit job{.trajectory = std::move(way),
              .terms = {.backlog_timeout = head.job->terms.backlog_timeout,
-                       .on_timeout = head.job->terms.on_timeout},
-             .goals = {{.arm = arm, .to = to, .speed = speed}}};
+                       .on_timeout = head.job->terms.on_timeout}};
+  job.goals.push_back({.arm = arm, .to = to, .speed = speed});
   const YieldMove told{.arm = arm, .blocked_job = head.id.job, .to_start = true};
   (void)add_own(state, told, std::move(job), head.id.job);
   return true;
