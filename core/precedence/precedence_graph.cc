@@ -28,8 +28,9 @@ void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
   }
   std::erase_if(rests_, [](const Rest& rest) { return rest.arms.empty(); });
   precedences_ = orders.precedences;
-  std::erase_if(precedences_,
-                [this](const Precedence& precedence) { return !limit_by(precedence); });
+  std::erase_if(precedences_, [this](const Precedence& precedence) {
+    return find(precedence.first())->is_beyond(precedence.steps().back().until);
+  });
 }
 
 void PrecedenceGraph::progress(StepId step, Duration progress) {

@@ -241,6 +241,19 @@ TEST_F(Graph, GoalStaysBlockedUntilItsMotionIsFinished) {
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
 }
 
+// A is at its goal, in B's way, although its end is not reported yet.
+TEST_F(Graph, ReachedGoalIsNotPassedBeforeTheNextMotionHasLeftIt) {
+  admit({motion(kA, 0, 5s)}, {});
+  graph.granted(kA, 5s);
+  admit({motion(kB, 1, 5s), motion(kNext, 0, 20s)},
+        {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}, {kB, kNext, {region({{2s, 3s, 0s, 15s}})}}});
+  graph.progress(kA, 5s);
+  admit({}, {});
+  graph.set_outlook(kNext, {.stands_for = 60s});
+  admit({}, {});
+  EXPECT_LT(graph.limit(kB), 2s);
+}
+
 // A stalls, so B is to pass first, before A rests at its goal.
 TEST_F(Graph, ReversedOrderReleasesTheMotionThatWaitedForAnAbandonedMotion) {
   admit({motion(kA, 0, 5s)}, {});
