@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <vector>
 
@@ -37,20 +38,16 @@ class JobBook : public StepFacts {
 
   [[nodiscard]] JobId next_id() const { return ids_.next(); }
   [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
-  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`, as
-  // they are now. Ascending ids.
+  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`.
+  // Ascending ids. Do not change states while you use past_queue(); past_queue_now() is a copy.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }
-  [[nodiscard]] Steps past_queue() const {
-    const auto steps = of(past_queue_);
-    return {steps.begin(), steps.end()};
-  }
+  [[nodiscard]] auto past_queue() const { return of(past_queue_); }
+  [[nodiscard]] Steps past_queue_now() const { return {past_queue().begin(), past_queue().end()}; }
   // Returns the first step of each queue that is not empty.
-  [[nodiscard]] Steps heads() const {
-    Steps steps;
-    for (const auto& queue : queues_) {
-      if (!queue.empty()) steps.emplace_back(at(queue.front()));
-    }
-    return steps;
+  [[nodiscard]] auto heads() const {
+    return std::views::transform(
+        std::views::filter(queues_, [](const ArmQueues::Queue& queue) { return !queue.empty(); }),
+        [this](const ArmQueues::Queue& queue) -> const Step& { return at(queue.front()); });
   }
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }

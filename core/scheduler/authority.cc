@@ -82,7 +82,7 @@ TimePoint overrun_after(const State& state, const Step& step) {
 }
 
 void dispatch_ready(Transitions& state) {
-  for (const Step& step : state->jobs.past_queue()) {
+  for (const Step& step : state->jobs.past_queue_now()) {
     go_on(state, step);
     if (step.pausing()) explain_pause(state, step);
   }

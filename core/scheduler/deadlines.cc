@@ -66,7 +66,7 @@ std::optional<TimePoint> expiry_of(const State& state, const Step& step) {
 }
 
 void expire_and_overrun(Transitions& state) {
-  for (const Step& step : state->jobs.past_queue()) {
+  for (const Step& step : state->jobs.past_queue_now()) {
     see_whether_in_vain(state, step);
     const auto expiry = expiry_of(state, step);
     const bool is_over = expiry && state->now >= *expiry;

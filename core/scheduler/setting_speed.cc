@@ -37,7 +37,7 @@ void set_speed(Transitions& state, const SetSpeed& input) {
   if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
   const SpeedOverride before = state->speed;
   state.set_speed(input);
-  for (const Step& step : state->jobs.past_queue()) {
+  for (const Step& step : state->jobs.past_queue_now()) {
     const auto& arms = step.trajectory->arms();
     if (before.effective(arms) == state->speed.effective(arms)) continue;
     renew_clocks(state, step, before.effective(arms) == 0.0);

@@ -84,7 +84,7 @@ std::optional<TimePoint> weighs_next(const State& state) {
 
 void compare_again(Transitions& state) {
   if (!has_no_orders(state)) return;
-  for (const Step& step : state->jobs.past_queue()) {
+  for (const Step& step : state->jobs.past_queue_now()) {
     state.jobs().put_in_question(step);
     const bool is_kept =
         step.in<Admitted>() != nullptr && any_closed(state, step, is_ended_by_client);
