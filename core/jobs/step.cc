@@ -26,11 +26,7 @@ const Pause* Step::pause() const {
   return moving != nullptr && moving->pause ? &*moving->pause : nullptr;
 }
 
-bool Step::pausing() const {
-  if (is_admitted()) return pause() != nullptr;
-  const auto* braking = in<Braking>();
-  return braking != nullptr && braking->paused;
-}
+bool Step::pausing() const { return is_admitted() && pause() != nullptr; }
 
 const GoalWay* Step::stands_in() const {
   if (!is_unplanned()) return nullptr;

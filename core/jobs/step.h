@@ -73,7 +73,6 @@ struct Moving {
 struct Braking {
   AfterStop after;
   JobState state;                         // scheduled, running, paused
-  bool paused = false;                    // was already at rest
   std::optional<Duration> rests_at = {};  // MotionReport::rests_at
 };
 struct Held {
@@ -238,7 +237,8 @@ struct Step {
   void note_start(TimePoint now);
   // True if the job is braking. At rest it will be canceled, failed or paused.
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
-  // True if the job rests on its path until others have passed.
+  // True if the job rests on its path until others have passed. False while it brakes: it may still
+  // move.
   [[nodiscard]] bool pausing() const;
   // Returns the rest on its path; null if there is none, or if the job brakes.
   [[nodiscard]] const Pause* pause() const;

@@ -223,9 +223,7 @@ void Transitions::measure(const Step& step, const MotionReport& report) {
 void Transitions::brake(const Step& step, AfterStop after) {
   if (step.in<Admitted>() != nullptr) return withdraw(step, after);
   const auto* braking = step.in<Braking>();
-  Braking next{.after = after,
-               .state = braking != nullptr ? braking->state : step.state(),
-               .paused = step.pausing()};
+  Braking next{.after = after, .state = step.pausing() ? JobState::paused : step.state()};
   if (braking != nullptr && braking->after.then != Then::hold) next.after = braking->after;
   if (braking == nullptr) effect(Brake{step.id});
   if (next.after.then == Then::hold && step.has_started()) next.state = JobState::paused;

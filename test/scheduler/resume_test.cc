@@ -32,6 +32,22 @@ TEST(Resume, BrakingJobNoLongerWaitsForTheStop) {
   EXPECT_THAT(bench.job(job).waits_on, IsEmpty());
 }
 
+// The other motion has passed, but the arm has not reported yet that it goes on.
+TEST(Resume, BrakingJobNoLongerRestsForAMotionThatHasPassed) {
+  OneBehindAnother two(ProgressBox{1500ms, 1800ms, 0ms, 1200ms});
+  Bench& bench = two.bench;
+  bench.progressed(two.second, 900ms, at(2s));
+  for (const auto now : {3s, 4s}) bench.progressed(two.second, 1500ms - kShortOf, at(now));
+  ASSERT_TRUE(bench.job(two.second).pausing());
+  bench.progressed(two.first, 1300ms, at(5s));
+  ASSERT_GT(bench.authority(two.second), 1500ms);
+  bench.step(Stop{{ArmId{1}}, "operator"}, at(5001ms));
+  EXPECT_FALSE(bench.job(two.second).pausing()) << "it may move";
+  bench.step(Resume{{ArmId{1}}}, at(5002ms));
+  EXPECT_FALSE(bench.job(two.second).pausing());
+  EXPECT_THAT(bench.job(two.second).waits_on, IsEmpty());
+}
+
 TEST(Resume, OfOneTeamArmLeavesTheJobWaitingForTheOther) {
   Bench bench(2);
   bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(0ms));

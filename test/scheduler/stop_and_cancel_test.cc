@@ -105,6 +105,7 @@ TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   EXPECT_THAT(bench.braked, ElementsAre(first));
   bench.step(Wake{}, at(24s));
   EXPECT_THAT(bench.braked, ElementsAre(first, behind)) << "it has stood there since 4 s";
+  EXPECT_EQ(bench.state(behind), JobState::paused) << "it brakes where it rests";
   bench.stopped(behind, 1450ms, at(24100ms));
   EXPECT_EQ(bench.state(behind), JobState::expired);
   EXPECT_EQ(bench.job(behind).reason(), Reason::backlog_timeout);
