@@ -28,7 +28,7 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
-// What is known of a signal.
+// The last report of a signal.
 struct SignalNow {
   std::optional<SignalValue> value;
   std::string detail;  // why the value is not known

@@ -102,6 +102,13 @@ export interface components {
             move_to_start?: "none" | "plan";
             /** @description true: the scheduler may reorder this job among reorderable jobs of the same arm that begin and end at the same configuration */
             reorderable?: boolean;
+            /** @description The job does not start while the signal has another value. It keeps its place in the queue of its arm */
+            start_when?: {
+                /** @description Name of the input or output */
+                io: string;
+                /** @description Value at which the job starts */
+                value: boolean | number;
+            };
             /** @description Time of acceptance, in cell time */
             submitted_s: number;
             /**
@@ -742,8 +749,8 @@ export interface components {
         /** @description A reason to wait, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed";
-            /** @description Id of the other job */
+            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed" | "io";
+            /** @description Id of the other job; for kind io the name of the signal */
             id: string | null;
             /** @description Name of the other arm */
             arm: string | null;
