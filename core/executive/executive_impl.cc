@@ -8,6 +8,14 @@
 #include "core/executive/guard_words.h"
 
 namespace armloom {
+namespace {
+
+// Without a connection, the value is only assumed: no job may start for it.
+SignalChanged input_of(const SignalView& signal) {
+  return {signal.name, signal.is_connected ? signal.value : std::nullopt, signal.detail};
+}
+
+}  // namespace
 
 Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementService& judges,
                       Observer& observer)
@@ -46,9 +54,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       watch_(cell_, scene_.scene()),
       links_(cell_->arms.size()) {
   follow_policy();
-  for (const SignalView& signal : signals_.views()) {
-    step(SignalChanged{signal.name, signal.value, signal.detail});
-  }
+  for (const SignalView& signal : signals_.views()) step(input_of(signal));
 }
 
 void Executive::Impl::note(ExecutiveInput input) const {
@@ -319,8 +325,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
 
 void Executive::Impl::signal_changed(SignalId signal) {
   publisher_.tell_signal(signal, clock_.now);
-  const SignalView& now = signals_.views()[signal.index()];
-  step(SignalChanged{now.name, now.value, now.detail});
+  step(input_of(signals_.views()[signal.index()]));
 }
 
 // ---- What is to be seen ----

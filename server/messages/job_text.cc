@@ -49,6 +49,7 @@ std::string waited_for(const Schema& wait, const Present& now = {}) {
     return (arm.empty() ? std::string("a stopped arm") : "arm " + arm) + " to be resumed";
   }
   if (kind == "speed") return "the speed override to be raised";
+  if (kind == "io") return "signal " + text_at(wait, "id");
   if (kind == "predecessor") return blocker_of(wait) + " to end first";
   if (kind == "capacity")
     return blocker_of(wait) + ", because the policy limits what moves at once";
@@ -154,6 +155,11 @@ std::string remedy_of(const Schema& job, const Present& now) {
   }
   if (waits_on(job, "speed")) {
     return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
+  }
+  if (waits_on(job, "io")) {
+    return " It starts by itself when the signal has this value; GET /api/v1/io shows all signals. "
+           "Or " +
+           cancel + ".";
   }
   if (waits_on(job, "arm") || waits_on(job, "object") || waits_on(job, "job")) {
     return std::string(text_at(job, "state") == "paused" ? " It goes on" : " It starts") +

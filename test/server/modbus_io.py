@@ -142,13 +142,18 @@ def case_survives_the_loss_of_the_device(plant):
     plant.await_up()
     plant.put("valve", True)
     wait_for(lambda: plant.io("valve")["value"] is True, "an open valve")
+    job = {"id": "closed", "arm": "left", "move_to": {"named": "ready"}, "start_when": {"io": "valve", "value": False}}
+    assert plant.call("POST", "/jobs", job)[0] == 202
     plant.end_device()
     wait_for(lambda: not plant.io("valve")["is_connected"], "a lost connection")
+    waits = wait_for(lambda: plant.call("GET", "/jobs/closed")[1]["waits_on"], "a reason to wait")
+    assert waits[0]["kind"] == "io" and "not known" in waits[0]["detail"], "an assumed value started a job"
     assert plant.io("valve")["value"] is False, "not the fail state"
     assert plant.io("level")["value"] is None and plant.io("lamp")["value"] is None
     plant.start_device()
     plant.await_up()
     assert plant.tell("get coil 0") == "0", "a value from before the loss was written again"
+    wait_for(lambda: plant.call("GET", "/jobs/closed")[1]["state"] == "succeeded", "the job's end")
 
 
 def case_says_that_a_slow_device_is_lost(plant):
