@@ -6,6 +6,7 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/gripper_goal.h"
+#include "core/executive/signals.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/sequence/places.h"
 #include "core/trajectory/implicit_start.h"
@@ -72,23 +73,6 @@ Problem key_in_use(const std::string& key) {
       "id \"" + key + "\" is in use by another job: give another one, or leave \"id\" out", key};
 }
 
-void find_bad_condition(const Cell& cell, const JobTerms& terms, Problems& problems) {
-  if (!terms.start_when) return;
-  const auto& [name, value] = *terms.start_when;
-  const auto signal = cell.io.find_signal(name);
-  if (!signal) {
-    problems.push_back({ProblemKind::invalid, "unknown-signal", "/start_when/io",
-                        "the cell has no signal \"" + name + "\": GET /io lists them", name});
-  } else if (type_of(value) != cell.io.signal(*signal).value_type()) {
-    const bool is_flag = cell.io.signal(*signal).value_type() == SignalType::boolean;
-    problems.push_back({ProblemKind::invalid, "wrong-type", "/start_when/value",
-                        "signal " + name + " takes " +
-                            (is_flag ? "true or false" : "a whole number from 0 to 65535") +
-                            ", found " + text_of(value),
-                        text_of(value)});
-  }
-}
-
 }  // namespace
 
 std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
@@ -115,7 +99,11 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   const bool taken = jobs_.is_taken(request.key) || ahead.keys.contains(request.key);
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
-  find_bad_condition(*cell_, request.terms, problems);
+  if (const auto& when = request.terms.start_when) {
+    auto bad = find_bad_value(cell_->io, when->signal, when->value, ProblemKind::invalid,
+                              "/start_when/io", "/start_when/value");
+    if (bad) problems.push_back(*std::move(bad));
+  }
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
   if (!request.move_to && !request.arms.empty()) {

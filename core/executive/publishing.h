@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/executive/authority_gate.h"
@@ -37,8 +36,7 @@ class Publisher {
   };
   Publisher(const Shown& shown, Observer& observer);
 
-  using Body = std::variant<JobView, ArmView, QueueView, SceneView, SignalView, MonitorEvent,
-                            GuardEvent, Alert>;
+  using Body = decltype(Event::body);
   void tell(Body body, TimePoint now);
   // Publish the scene: on the board at once. Events of large scenes are published less often, so
   // that one event may cover several changes.

@@ -25,16 +25,31 @@ SignalView at_start(const SignalDescription& signal, bool is_simulated) {
   return view;
 }
 
-Problem wrong_type(const SignalView& signal, const SignalValue& value) {
-  const bool is_flag = signal.type == SignalType::boolean;
-  return {ProblemKind::invalid, "wrong-type", "/value",
-          "signal " + signal.name + " takes " +
-              (is_flag ? "true or false" : "a whole number from 0 to 65535") + ", found " +
-              text_of(value),
-          text_of(value)};
-}
-
 }  // namespace
+
+std::optional<Problem> find_bad_value(const IoDescription& io, const std::string& name,
+                                      const SignalValue& value, ProblemKind unknown,
+                                      const std::string& name_at, const std::string& value_at) {
+  const auto id = io.find_signal(name);
+  if (!id) {
+    std::vector<std::string_view> names;
+    for (const SignalDescription& signal : io.signals) names.emplace_back(signal.name);
+    const auto near = nearest_name(name, names);
+    return Problem{
+        unknown, "unknown-signal", name_at,
+        "the cell has no signal \"" + name + "\"" +
+            (near ? "; did you mean " + std::string(*near) + "?" : ": GET /io lists them"),
+        name};
+  }
+  const SignalType type = io.signal(*id).value_type();
+  if (type_of(value) == type) return std::nullopt;
+  const bool is_flag = type == SignalType::boolean;
+  return Problem{ProblemKind::invalid, "wrong-type", value_at,
+                 "signal " + name + " takes " +
+                     (is_flag ? "true or false" : "a whole number from 0 to 65535") + ", found " +
+                     text_of(value),
+                 text_of(value)};
+}
 
 Signals::Signals(const IoDescription& io, Write write, Told told)
     : io_(io), write_(std::move(write)), told_(std::move(told)) {
@@ -45,18 +60,10 @@ Signals::Signals(const IoDescription& io, Write write, Told told)
 
 Result<SignalView> Signals::set(const std::string& name, const SignalValue& value) {
   const TimePoint now = told_.asked({ExecutiveInput::SignalSet{name, value}});
+  auto bad = find_bad_value(io_, name, value, ProblemKind::not_found, "", "/value");
+  if (bad) return failure(*std::move(bad));
   const auto id = io_.find_signal(name);
-  if (!id) {
-    std::vector<std::string_view> names;
-    for (const SignalView& view : views_) names.emplace_back(view.name);
-    const auto near = nearest_name(name, names);
-    return failure(Problem{ProblemKind::not_found, "unknown-signal", "",
-                           "the cell has no signal \"" + name + "\"" +
-                               (near ? "; did you mean " + std::string(*near) + "?" : ""),
-                           name});
-  }
   SignalView& view = views_[id->index()];
-  if (type_of(value) != view.type) return failure(wrong_type(view, value));
   if (!view.device.empty() && view.direction == SignalDirection::input) {
     return failure(Problem{ProblemKind::conflict, "input-of-device", "",
                            "input " + name + " is read from device " + view.device +

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct IoReport {
   std::string detail = {};                         // why it is not up
   std::map<std::string, SignalValue> values = {};  // by signal; of the signals of the device
 };
+
+// Returns what is wrong with a value for this signal: the cell has no such signal (`unknown`, with
+// the pointer `name_at`), or it has another type (pointer `value_at`).
+[[nodiscard]] std::optional<Problem> find_bad_value(const IoDescription& io,
+                                                    const std::string& name,
+                                                    const SignalValue& value, ProblemKind unknown,
+                                                    const std::string& name_at,
+                                                    const std::string& value_at);
 
 // The inputs and outputs of the cell. Used on the strand.
 //

@@ -147,7 +147,7 @@ struct SetSpeed {
 // A signal of the cell has changed.
 struct SignalChanged {
   std::string signal;                // name
-  std::optional<SignalValue> value;  // nullopt: not known
+  std::optional<SignalValue> value;  // nullopt if it is not known
   std::string detail;                // why it is not known
 };
 // Sets the policy (not null). Ignored while a motion is admitted, because its passing orders belong

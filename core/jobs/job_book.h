@@ -84,7 +84,7 @@ class JobBook : public StepFacts {
   void put_in_order(const std::vector<JobId>& jobs);
   // Gives a waiting job one of its alternatives, at position `place` of that arm's queue.
   void take(const Step& step, std::size_t which, WaitingLeg leg, std::size_t place);
-  // The path has again the number that it had.
+  // Gives the path the number that it had before.
   void restore(const Step& step, std::uint64_t motion) { edit(step).leg.motion = motion; }
   // Sets the planned or a new path. Precondition: the job waits in the queue.
   void set_motion(const Step& step, TrajectoryPtr trajectory, WaitingLeg leg);

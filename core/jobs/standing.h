@@ -13,9 +13,9 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 [[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Step& step);
 // Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, another
 // arm whose position is not known, or a speed override of 0. nullopt if there is none.
+[[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Step& step);
 // Returns what the job waits for if it has not started and JobTerms::start_when does not hold.
 [[nodiscard]] std::optional<Wait> signal_wait(const State& state, const Step& step);
-[[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Step& step);
 // Returns what an admitted job at its limit waits for; nullopt if it moves or is about to.
 [[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Step& step);
 // Returns true if one of the job's arms rests in the path of an admitted motion that precedes the
@@ -31,7 +31,7 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // Returns true if the job waits for an arm at rest that has no job.
 [[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
 
-// Measured speed of motions.
+// ---- Measured speed of motions ----
 
 // A job's arms stand if they have not moved for Promises::stands_from.
 

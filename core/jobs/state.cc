@@ -39,14 +39,12 @@ void StateWriter::set_speed(const SetSpeed& input) {
 }
 
 void StateWriter::set_signal(const SignalChanged& input) {
-  SignalNow& known = state_.signals[input.signal];
-  known.detail = input.detail;
-  const auto before = std::exchange(known.value, input.value);
+  const SignalChanged before = std::exchange(state_.signals[input.signal], input);
   for (const Step& step : state_.jobs.of(state_.jobs.active())) {
     const auto& wanted = step.job->terms.start_when;
     if (!wanted || wanted->signal != input.signal) continue;
     state_.jobs.explain(step);
-    if ((before == wanted->value) != (known.value == wanted->value)) ++state_.changes_;
+    if ((before.value == wanted->value) != (input.value == wanted->value)) ++state_.changes_;
   }
 }
 

@@ -28,12 +28,6 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
-// The last report of a signal.
-struct SignalNow {
-  std::optional<SignalValue> value;
-  std::string detail;  // why the value is not known
-};
-
 // The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
 // copy is independent of the original; Trial works on such a copy.
 struct State {
@@ -46,9 +40,9 @@ struct State {
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
   Round round = {};
-  std::map<std::string, SignalNow> signals = {};  // by name; those that were reported
-  Version scene_epoch = 0;                        // the version since which the scene is unchanged
-  TimePoint now{};                                // of the present step
+  std::map<std::string, SignalChanged> signals = {};  // the last of each, by name
+  Version scene_epoch = 0;  // the version since which the scene is unchanged
+  TimePoint now{};          // of the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),

@@ -55,7 +55,7 @@ class StepFacts {
   void set(const Step& step, AnotherWay fact);
   void set(const Step& step, Choice fact) { changed(step).choice = std::move(fact); }
   void set(const Step& step, const Starvation& fact) { changed(step).starvation = fact; }
-  // Replaces what is not of Job::terms or Job::turn.
+  // Replaces the job. Precondition: its terms and its turn are as before.
   void set(const Step& step, Job fact);
   // The admitted motion must be checked again.
   void put_in_question(const Step& step);

@@ -19,7 +19,7 @@ using Wall = std::chrono::steady_clock;
 
 // Time from the end of a connection to the next attempt.
 constexpr std::chrono::seconds kConnectsAgain{1};
-// Most addresses in one request of the protocol that also fit for registers.
+// The protocol allows 125 registers in one request, and more bits.
 constexpr int kBlockMax = 120;
 
 const SignalDescription::Place& place_of(const IoDescription& io, SignalId signal) {

@@ -12,10 +12,8 @@ import subprocess
 import sys
 import tempfile
 import time
-import urllib.error
-import urllib.request
 
-from killed_server import API, ROOT
+from killed_server import API, ROOT, call
 from remote_cell import wait_for
 
 PYMODBUS = ["/usr/bin/python3", pathlib.Path(__file__).with_name("modbus_plc.py")]
@@ -67,14 +65,7 @@ class Plant:
             self.device.wait()
 
     def call(self, method, path, body=None):
-        request = urllib.request.Request(f"http://127.0.0.1:{self.port}{API}{path}", method=method,
-                                         data=None if body is None else json.dumps(body).encode(),
-                                         headers={"Content-Type": "application/json"})
-        try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
-                return answer.status, json.loads(answer.read())
-        except urllib.error.HTTPError as error:
-            return error.code, json.loads(error.read())
+        return call(self.port, method, API + path, body)
 
     def io(self, name):
         return next(s for s in self.call("GET", "/io")[1]["signals"] if s["name"] == name)

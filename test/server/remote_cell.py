@@ -7,10 +7,8 @@ import socket
 import subprocess
 import threading
 import time
-import urllib.error
-import urllib.request
 
-from killed_server import API, ROOT, swing
+from killed_server import API, ROOT, call, swing
 
 PATIENCE_S = 120.0  # then the test hangs
 ENDED = ("succeeded", "failed", "canceled", "interrupted")
@@ -152,14 +150,7 @@ class Cell:
         self.arms[arm].stdout.readline()
 
     def call(self, method, path, body=None):
-        request = urllib.request.Request(f"http://127.0.0.1:{self.port}{API}{path}", method=method,
-                                         data=None if body is None else json.dumps(body).encode(),
-                                         headers={"Content-Type": "application/json"})
-        try:
-            with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
-                return json.loads(answer.read() or b"null")
-        except urllib.error.HTTPError as error:
-            return json.loads(error.read() or b"null")
+        return call(self.port, method, API + path, body, PATIENCE_S)[1]
 
     def submit(self, count, duration_s=1.5):
         for i in range(count):

@@ -191,7 +191,7 @@ Closed aging(const Look& look, const Step& step) {
 }
 
 // In the order in which they are checked. Four have no edges: the planner answers; an operator or
-// an input acts; nobody younger holds back an aged job or the jobs that must precede it.
+// a signal acts; nobody younger holds back an aged job or the jobs that must precede it.
 constexpr Gate kGates[] = {
     // another job of its arm precedes it; edges: add_behind(), queue by queue
     {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
@@ -205,7 +205,7 @@ constexpr Gate kGates[] = {
     {lets_pass, add_lets_pass, EndedBy::job, Blocks::start},
     // one of its arms is stopped
     {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
-    // an input does not have the value at which the job starts
+    // a signal does not have the value at which the job starts
     {signal, nullptr, EndedBy::client, Blocks::start},
     // the policy allows no further job at the same time
     {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},

@@ -72,7 +72,7 @@ struct ClosedGate {
 [[nodiscard]] std::optional<ClosedGate> first_closed(const State& state, const Step& step,
                                                      bool (*counts)(const Gate&));
 
-// Returns true if there is one. Faster.
+// Returns true if such a condition is closed. Faster than first_closed().
 [[nodiscard]] bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&));
 
 // Returns true if the job waits for no other job before its start.

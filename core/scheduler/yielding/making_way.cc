@@ -18,9 +18,9 @@ bool returns_from(const Step& own, const std::vector<JobId>& moves) {
   return std::ranges::find_first_of(own.job->after, moves) != own.job->after.end();
 }
 
-// Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
-// move that stays is done is not where it stands now, so what follows that stays too. Needless ones
-// as they are to end: who does not go does not return.
+// Passes on the server's jobs at the front of an arm's queue. If one of them stays, all after it
+// stay too, because they begin where it ends. Adds the others to `needless`, in the order in which
+// they must end: a return ends before the retreat that it belongs to.
 void pass_on(Transitions& state, const ArmQueues::Queue& queue, std::vector<JobId>& needless) {
   const auto is_of_a_client = [&](StepId step) { return !state->jobs.at(step).job->system_job; };
   const auto next = std::ranges::find_if(queue, is_of_a_client);
