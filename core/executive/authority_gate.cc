@@ -121,6 +121,15 @@ const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
   return reports_;
 }
 
+std::vector<StepId> AuthorityGate::refused_for_long() {
+  std::vector<StepId> steps;
+  for (auto& [step, kept] : kept_) {
+    if (!kept.is_reported || kept.is_braked || now_ - kept.since < kMissing) continue;
+    if (!std::exchange(kept.is_for_long, true)) steps.push_back(step);
+  }
+  return steps;
+}
+
 // Tells the guard where moving arms are, and in each cycle where one of the arms at rest is. The
 // position of an arm whose controller has not connected yet is not known.
 void AuthorityGate::see_positions() {

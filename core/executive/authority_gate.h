@@ -49,6 +49,8 @@ class AuthorityGate {
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
+  // Returns the steps that have been refused authority for kMissing, each one once.
+  [[nodiscard]] std::vector<StepId> refused_for_long();
 
   // Returns the refusal, reported by Calls::refused, that holds the step back; nullopt if there is
   // none.
@@ -71,7 +73,7 @@ class AuthorityGate {
     TimePoint since;
     std::optional<Dispatch> start = {};  // set: the motion is not sent to the arms yet
     bool is_braked = false;
-    bool is_reported = false;
+    bool is_reported = false, is_for_long = false;
     TimePoint asks_from = {};  // time of the next request for its certificates
     int answers = 0;
 

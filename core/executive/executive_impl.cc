@@ -192,6 +192,10 @@ void Executive::Impl::tick(TimePoint now) {
     clock_.quiet = false;
     if (!execution_.keeps_back(report)) take(report);
   }
+  for (const StepId id : execution_.gate().refused_for_long()) {
+    const GuardRefusal why = *execution_.gate().refusal(id);
+    step(Refused{id, why.other, sentence(why, *cell_)});
+  }
   if (now >= clock_.shows_check_at) show_check();
   forget_rolled_back();
   count_.motion(motions);

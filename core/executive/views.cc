@@ -171,7 +171,7 @@ JobMotionView motion_of(const Step& step) {
                                   : std::nullopt,
           .progress = to_seconds(step.progress) / to_seconds(duration),
           .stopping = braking != nullptr,
-          .ends_at_rest = braking != nullptr && braking->after.then != AfterStop::Then::hold};
+          .ends_at_rest = braking != nullptr && braking->after.ends()};
 }
 
 JobWaysView ways_of(const Step& step, const Cell& cell, const JobNames& names) {

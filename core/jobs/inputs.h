@@ -100,6 +100,14 @@ struct MotionReport {
   // progressed: while the motion brakes, the progress at which its last arm will rest, if known.
   std::optional<Duration> rests_at = {};
 };
+// The authority guard has refused the step's authority for AuthorityGate::kMissing, because an arm
+// is not where the passing orders assume. The step's arms brake. Its orders are decided anew when
+// anything changes.
+struct Refused {
+  StepId step;
+  std::optional<ArmId> other;  // that is in the way
+  std::string detail;          // one sentence
+};
 // Stops these arms and starts nothing on them until Resume.
 struct Stop {
   struct StoppedArm {
@@ -164,8 +172,8 @@ struct Interrupt {
 struct Wake {};
 
 using Input = std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade,
-                           MotionReport, Stop, Resume, Located, Unlocated, SceneChanged, SetSpeed,
-                           SignalChanged, ChangePolicy, Interrupt, Wake>;
+                           MotionReport, Refused, Stop, Resume, Located, Unlocated, SceneChanged,
+                           SetSpeed, SignalChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -42,7 +42,7 @@ const GoalWay* Step::stands_in() const {
 
 const Braking* Step::ends_by_braking() const {
   const auto* braking = in<Braking>();
-  return braking != nullptr && braking->after.then != AfterStop::Then::hold ? braking : nullptr;
+  return braking != nullptr && braking->after.ends() ? braking : nullptr;
 }
 
 }  // namespace armloom

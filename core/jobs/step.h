@@ -36,10 +36,18 @@ struct Pause {
 };
 // Tells what happens to a step when its braking arms have come to rest.
 struct AfterStop {
-  enum class Then { hold, cancel, fail };
+  enum class Then {
+    hold,
+    decide_anew,  // as `hold`, but its orders are dropped; `arm` and `detail` say why
+    cancel,
+    fail,
+  };
   Then then = Then::hold;
   Reason reason = Reason::overrun;  // fail
-  std::string detail = {};          // fail
+  std::string detail = {};          // fail, decide_anew
+  std::optional<ArmId> arm = {};    // decide_anew
+
+  [[nodiscard]] bool ends() const { return then == Then::cancel || then == Then::fail; }
 };
 
 // The phases of a step, each with its own data, and their transitions (transitions.h):

@@ -190,7 +190,7 @@ void Transitions::readmit(const Step& step) {
 }
 
 void Transitions::withdraw(const Step& step, const AfterStop& after) {
-  if (after.then != Then::hold) return end_at_rest(step, after);
+  if (after.ends()) return end_at_rest(step, after);
   leave_graph(step);
   if (step.has_started()) {
     enter(step, Held{});
@@ -224,9 +224,11 @@ void Transitions::brake(const Step& step, AfterStop after) {
   if (step.in<Admitted>() != nullptr) return withdraw(step, after);
   const auto* braking = step.in<Braking>();
   Braking next{.after = after, .state = step.pausing() ? JobState::paused : step.state()};
-  if (braking != nullptr && braking->after.then != Then::hold) next.after = braking->after;
+  if (braking != nullptr && (braking->after.ends() || after.then == Then::hold)) {
+    next.after = braking->after;
+  }
   if (braking == nullptr) effect(Brake{step.id});
-  if (next.after.then == Then::hold && step.has_started()) next.state = JobState::paused;
+  if (!next.after.ends() && step.has_started()) next.state = JobState::paused;
   enter(step, std::move(next));
 }
 
@@ -243,10 +245,12 @@ void Transitions::come_to_rest(const Step& step, const MotionReport& report) {
     const std::string cause = "fault: " + report.detail;
     for (ArmId arm : step.trajectory->arms()) state_.arms.stop(arm, cause);
     end(step, JobState::failed, Reason::arm_fault, report.detail);
-  } else if (after.then != Then::hold) {
+  } else if (after.ends()) {
     end_as(step, after, "braked on its path");
   } else if (step.has_started()) {
-    return enter(step, Held{});
+    return after.then == Then::hold ? enter(step, Held{}) : withdraw(step, after);
+  } else if (after.then == Then::decide_anew) {
+    withdraw(step, after);
   } else {
     // It keeps its place between the others, but for objects that have come into its way.
     enter(step, Admitted{});

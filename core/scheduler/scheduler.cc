@@ -9,6 +9,7 @@
 #include "core/scheduler/authority.h"
 #include "core/scheduler/deadlines.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/putting_off.h"
 #include "core/scheduler/rejoining.h"
 #include "core/scheduler/setting_speed.h"
 #include "core/scheduler/waiting/capacity.h"
@@ -48,6 +49,13 @@ void take(Transitions& state, const Amend& input) {
   for (const Step& other : state->jobs.of(state->jobs.active())) {
     if (other.job->errand.on_behalf_of == step->id.job) state.amend(other, {.priority = priority});
   }
+}
+
+void take(Transitions& state, const Refused& input) {
+  const Step* step = state->jobs.find(input.step);
+  if (step == nullptr || step->in<Moving>() == nullptr) return;
+  state.brake(*step,
+              {.then = AfterStop::Then::decide_anew, .detail = input.detail, .arm = input.other});
 }
 
 void take(Transitions& state, const Stop& input) {
@@ -243,7 +251,13 @@ void Scheduler::on(const MotionReport& input) {
     if (step->state() == JobState::scheduled) state_.jobs().start(*step, state_->now);
     if (step->in<Moving>() != nullptr) extend_authority(state_, step->id);
   } else {
+    const auto* braking = step->in<Braking>();
+    const AfterStop after = braking != nullptr ? braking->after : AfterStop{};
     state_.come_to_rest(*step, input);
+    if (after.then == AfterStop::Then::decide_anew && step->is_waiting()) {
+      put_off(state_, *step,
+              {{.kind = Wait::Kind::guard, .arm = after.arm, .detail = after.detail}});
+    }
     for (ArmId arm : step->trajectory->arms()) rejoin(state_, arm);
     if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }

@@ -5,6 +5,7 @@
 namespace armloom {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -127,6 +128,52 @@ TEST(Resume, DecidesTheOrdersOfAnArmBesideItsPathAnew) {
                                      {region(ProgressBox{900ms, 1600ms, 1700ms, 1800ms})}}});
   EXPECT_GT(bench.authority(two.second), 600ms);
   EXPECT_LE(bench.authority(two.second), 900ms);
+}
+
+// The arm of another motion is not where the orders assume. The guard sees that, and the motion
+// rests.
+TEST(Refused, DropsTheAuthorityThatTheGuardRefused) {
+  OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
+  Bench& bench = two.bench;
+  bench.progressed(two.second, 500ms, at(1003ms));
+  EXPECT_GT(bench.authority(two.second), 800ms);
+  bench.step(Refused{only_step(two.second), ArmId{0}, "the guard"}, at(2003ms));
+  EXPECT_THAT(bench.braked, ElementsAre(two.second));
+  bench.stopped(two.second, 500ms, at(2004ms));
+  EXPECT_EQ(bench.state(two.second), JobState::paused);
+  EXPECT_FALSE(bench.question) << "nothing has changed";
+  ASSERT_THAT(bench.job(two.second).waits_on, SizeIs(1));
+  EXPECT_EQ(bench.job(two.second).waits_on[0].kind, Wait::Kind::guard);
+  bench.step(SceneChanged{}, at(2005ms));
+  bench.answer_regions(at(2006ms), {{only_step(two.second),
+                                     only_step(two.first),
+                                     {region(ProgressBox{700ms, 1600ms, 1700ms, 1800ms})}}});
+  EXPECT_LE(bench.dispatched.back().authority, 700ms);
+}
+
+TEST(Refused, PutsAJobThatHasNotMovedInTheBacklog) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.step(Refused{only_step(job), std::nullopt, "the guard"}, at(1001ms));
+  bench.stopped(job, 0ms, at(1002ms));
+  EXPECT_EQ(bench.state(job), JobState::backlogged);
+  EXPECT_THAT(bench.released, ElementsAre(job));
+  EXPECT_FALSE(bench.question);
+  bench.step(SceneChanged{}, at(1003ms));
+  EXPECT_TRUE(bench.question);
+}
+
+TEST(Refused, IsCanceledWhileItBrakes) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.progressed(job, 500ms, at(504ms));
+  bench.step(Refused{only_step(job), std::nullopt, "the guard"}, at(1504ms));
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(1505ms));
+  bench.step(Cancel{job}, at(1506ms));
+  bench.stopped(job, 500ms, at(1507ms));
+  EXPECT_EQ(bench.state(job), JobState::canceled);
 }
 
 TEST(Resume, UsesThePositionFoundAtTheResume) {
