@@ -124,6 +124,7 @@ PlanOutcome first_of(const PlanInquiry& inquiry, std::vector<PlanView> plans,
 }  // namespace
 
 void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+  if (auto problem = find_unchecked_steps(request)) return done(failure(*std::move(problem)));
   JobIntake::Ahead ahead = intake_.ahead();
   auto prepared = intake_.prepare(std::move(request), ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));

@@ -43,7 +43,7 @@ class Plan {
       : scene_(std::move(scene)),
         cell_(*cell),
         scheduler_(cell, policy, cell_.home()),
-        intake_(cell, scheduler_, none_, {kNoLimit, kNoLimit}),
+        intake_(cell, {scheduler_, none_, tasks_, [this] { return scene_; }}, {kNoLimit, kNoLimit}),
         ahead_(intake_.ahead()),
         free_at_(cell_.arms.size(), TimePoint{}) {}
 
@@ -54,6 +54,9 @@ class Plan {
     request.terms.move_to_start =
         MoveToStart::none;  // it has to begin where the jobs before it end
     Planned& job = jobs_.emplace_back(request.key, request.name, timed.at, timed.at);
+    if (auto problem = find_unchecked_steps(request)) {
+      return add_below(place, {*std::move(problem)}, problems);
+    }
     const Configuration rest = ahead_.rest;
     auto prepared = intake_.prepare(std::move(request), ahead_);
     ahead_.rest = rest;
@@ -62,10 +65,10 @@ class Plan {
     by_key_.emplace(job.key, jobs_.size() - 1);
     for (const std::string& before : prepared->after) follow(by_key_.at(before), job);
     if (job.result) return;
-    if (prepared->goals.empty()) {
-      job.trajectory = prepared->alternatives.front();  // as if that were chosen
+    if (prepared->motion.goals.empty()) {
+      job.trajectory = prepared->motion.alternatives.front();  // as if that were chosen
     } else {
-      plan(prepared->goals, job);
+      plan(prepared->motion.goals, job);
     }
     if (job.trajectory) take(job);
   }
@@ -120,7 +123,8 @@ class Plan {
   PlanningScenePtr scene_;
   const Cell& cell_;
   Scheduler scheduler_;  // without jobs, as are the names
-  JobRegister none_{scheduler_, {}};
+  TaskBook tasks_;
+  JobRegister none_{scheduler_, tasks_, {}};
   JobIntake intake_;
   JobIntake::Ahead ahead_;
   std::vector<TimePoint> free_at_;

@@ -45,6 +45,30 @@ struct ChoiceView {
 struct JobResultView {
   Reason reason;
   std::string detail;
+  std::optional<std::size_t> step = {};  // of a task: the index of the step at which it ended
+};
+enum class StepState { waiting, running, done, failed };
+[[nodiscard]] constexpr const char* to_string(StepState state) {
+  switch (state) {
+    case StepState::waiting:
+      return "waiting";
+    case StepState::running:
+      return "running";
+    case StepState::done:
+      return "done";
+    case StepState::failed:
+      return "failed";
+  }
+  return nullptr;
+}
+// A step of a task.
+struct StepView {
+  std::string name;  // may be empty
+  std::string kind;  // kind_of()
+  StepState state = StepState::waiting;
+  std::string detail;             // what it does: "part to left_hand"
+  std::vector<std::string> arms;  // of a motion
+  double progress = 0.0;          // of a motion, 0 to 1
 };
 
 struct CheckView {
@@ -115,6 +139,8 @@ struct JobView {
   JobTimesView times = {};
   JobMotionView motion = {};
   JobWaysView ways = {};
+  std::vector<StepView> steps;      // of a task
+  std::optional<std::size_t> step;  // of a task: the index of the present step
   std::vector<WaitView> waits_on;
   std::optional<StarvationView> starvation;
   std::vector<std::string> cycle;       // keys of the deadlock cycle, this job first
@@ -174,10 +200,17 @@ struct QueueView {
   bool operator==(const QueueView&) const = default;
 };
 
+// An object that an arm holds. Its X_WO is the pose in the frame of the link.
+struct HeldView {
+  CollisionObject object;
+  std::string link;
+  std::string arm;
+};
 // The objects of the planning scene; `version` grows with every change.
 struct SceneView {
   std::uint64_t version = 0;
   std::shared_ptr<const std::vector<CollisionObject>> shared = {};  // not null if published
+  std::vector<HeldView> held = {};
 
   [[nodiscard]] const std::vector<CollisionObject>& objects() const { return *shared; }
 };

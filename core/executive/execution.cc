@@ -22,13 +22,22 @@ Execution::Execution(const CellPtr& cell, Made made, StartLog* log, ArmFaults::A
 
 void Execution::carry_out(const Dispatch& dispatch, const Step& step,
                           std::function<bool(StepId)> written) {
-  if (step.job->system_job) return gate_.dispatch(dispatch, step.trajectory);
+  // A later motion of a task: the task's start is recorded.
+  const bool is_later = step.job->task && *step.job->task != step.id.job;
+  if (step.job->system_job || is_later) return gate_.dispatch(dispatch, step.trajectory);
   const auto open = [this, id = dispatch.step, written = std::move(written)] {
     const bool moves = written(id);
     const auto withheld = starts_.open(id.job);
     if (withheld && moves) gate_.grant({id, *withheld});
   };
   gate_.dispatch(starts_.pass(dispatch, open), step.trajectory);
+}
+
+bool Execution::record_start(JobId job, std::function<void(JobId)> written) {
+  return starts_.record(job, [this, job, written = std::move(written)] {
+    (void)starts_.open(job);
+    written(job);
+  });
 }
 
 void Execution::carry_out(const Grant& grant) {

@@ -29,6 +29,9 @@ class Execution {
   // `written` is called on the strand when the job's start is on disk; it returns true if the job
   // is still in motion.
   void carry_out(const Dispatch& dispatch, const Step& step, std::function<bool(StepId)> written);
+  // Returns true if it is on disk that the job has begun. If it is not, asks for that once, and
+  // calls `written` later.
+  [[nodiscard]] bool record_start(JobId job, std::function<void(JobId)> written);
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.step); }
   void carry_out(const Release& release) { gate_.release(release.step); }

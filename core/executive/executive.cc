@@ -113,7 +113,10 @@ Snapshot Executive::snapshot(std::size_t ended_max) const {
 }
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
   const auto id = impl_->jobs_.find(key);
-  return id ? impl_->scheduler_.find(*id)->trajectory : nullptr;
+  if (!id) return nullptr;
+  const Task* task = impl_->tasks_.find(*id);
+  const JobId motion = task == nullptr ? *id : task->next_motion().value_or(*id);
+  return impl_->scheduler_.find(motion)->trajectory;
 }
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {

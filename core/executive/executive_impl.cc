@@ -21,7 +21,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                       Observer& observer)
     : cell_(checked.cell),
       scheduler_(cell_, std::move(checked.policy), cell_->home(), options.first_job),
-      jobs_(scheduler_, {options.ended_kept, options.ended_bytes_max}),
+      jobs_(scheduler_, tasks_, {options.ended_kept, options.ended_bytes_max}),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
@@ -32,7 +32,8 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                       note(input);
                       return clock_.now;
                     },
-                .changed = [this](SignalId signal) { signal_changed(signal); }}),
+                .changed = [this](SignalId signal) { signal_changed(signal); },
+                .now = [this] { return clock_.now; }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
@@ -48,9 +49,10 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       count_(cell_->arms.size()),
       clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
-                  execution_.starts(), scene_, signals_},
+                  execution_.starts(), scene_, signals_, tasks_},
                  observer),
-      intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
+      intake_(cell_, {scheduler_, jobs_, tasks_, [this] { return scene_.scene(); }},
+              {options.waiting_max, options.active_bytes_max}),
       watch_(cell_, scene_.scene()),
       links_(cell_->arms.size()) {
   follow_policy();
@@ -66,10 +68,14 @@ void Executive::Impl::note(ExecutiveInput input) const {
 void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
-  if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
+  if (const auto* report = std::get_if<MotionReport>(&input)) {
+    fire_triggers(*report);
+    if (effects.empty()) return;
+  }
   if (!wind_down_) publisher_.tell_stops();  // nobody resumes what only the end has stopped
   publisher_.queue_may_have_changed(clock_.now);
   publisher_.publish_step(clock_.now);
+  go_on_with_tasks();
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -132,18 +138,33 @@ void Executive::Impl::note_aside(const YieldMove& aside) {
 }
 
 void Executive::Impl::job_changed(JobId id) {
-  JobView view = publisher_.view(id);
-  if (is_terminal(view.state)) {
-    count_.end_of_a_job(*view.times.ended_at);
+  const Step& changed = *scheduler_.find(id);
+  if (changed.has_ended()) {
     questions_.plans().give_up(id);
     questions_.give_up(id);
-    execution_.forget(*scheduler_.find(id));
-    for (const auto& [oldest, key] : jobs_.end(id)) {
-      publisher_.forget(oldest, key);
-      scheduler_.forget(oldest);
-    }
+    execution_.forget(changed);
+    if (changed.state() == JobState::succeeded) clear_left_touch(changed.trajectory->arms());
+  }
+  if (Task* task = tasks_.find(id)) return motion_changed(*task, id);
+  JobView view = publisher_.view(id);
+  if (changed.has_ended()) {
+    count_.end_of_a_job(*view.times.ended_at);
+    forget_oldest(id);
   }
   publisher_.tell_job(std::move(view), clock_.now);
+}
+
+void Executive::Impl::forget_oldest(JobId ended) {
+  for (const auto& [oldest, key] : jobs_.end(ended)) forget_job(oldest, key);
+}
+
+void Executive::Impl::forget_job(JobId id, const std::string& key) {
+  publisher_.forget(id, key);
+  const Task* task = tasks_.find(id);
+  for (const JobId motion : task == nullptr ? std::vector{id} : task->motions()) {
+    scheduler_.forget(motion);
+  }
+  tasks_.forget(id);
 }
 
 // Readers see how far a check has come that takes long. No event tells it: it is of this machine.
@@ -196,6 +217,11 @@ void Executive::Impl::tick(TimePoint now) {
     const GuardRefusal why = *execution_.gate().refusal(id);
     step(Refused{id, why.other, sentence(why, *cell_)});
   }
+  if (now >= task_wakes_at_) {
+    clock_.quiet = false;
+    task_wakes_at_ = TimePoint::max();
+    go_on_with_tasks();
+  }
   if (now >= clock_.shows_check_at) show_check();
   forget_rolled_back();
   count_.motion(motions);
@@ -210,7 +236,7 @@ void Executive::Impl::tick(TimePoint now) {
     return motions.moving(arm) && motions.link(arm).state() != ArmLink::State::lost;
   };
   if (wind_down_ && wind_down_->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
-    step(Interrupt{wind_down_->keeps_waiting});
+    interrupt(wind_down_->keeps_waiting);
     std::exchange(wind_down_->done, nullptr)();
   }
 }
@@ -219,7 +245,7 @@ TimePoint Executive::Impl::settled_until() const {
   const bool settled = clock_.quiet && execution_.motions().all_settled() &&
                        execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
-  return std::min(clock_.wake_at.value_or(TimePoint::max()), clock_.held.next());
+  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_});
 }
 
 // ---- What is asked of all arms ----

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,6 +21,7 @@
 #include "core/executive/run_count.h"
 #include "core/executive/signals.h"
 #include "core/executive/state_watch.h"
+#include "core/executive/task.h"
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
 
@@ -81,6 +83,7 @@ class Executive::Impl {
 
   CellPtr cell_;
   Scheduler scheduler_;
+  TaskBook tasks_;
   JobRegister jobs_;
   LiveScene scene_;
   Signals signals_;
@@ -93,6 +96,34 @@ class Executive::Impl {
  private:
   Result<std::vector<PreparedJob>> prepare_all(std::vector<JobRequest> requests);
   JobView accept(PreparedJob prepared);
+
+  // tasks.cc
+  JobView accept_task(PreparedJob prepared);
+  void enter_task(PreparedJob prepared, JobId id, JobLabel label, bool is_held_over);
+  void go_on_with_tasks();
+  bool go_on(Task& task);
+  bool go_on_with_motion(Task& task, TaskStep& present);
+  Result<bool> act(Task& task, const StepRequest& request);
+  bool has_arm_of(Task& task, LinkId link);
+  bool set_output(Task& task, const std::string& name, const SignalValue& value);
+  Result<bool> changed_holding(PlanningScene::Content content);
+  void set_touch(Task& task, const TouchOf& next);
+  void leave_touch(Task& task);
+  void clear_left_touch(const std::vector<ArmId>& arms);
+  void change_touch(const std::string& object, const Touch& touch);
+  void fire_triggers(const MotionReport& report);
+  void end_task(Task& task, TaskEnd end);
+  void fail_task(Task& task, Reason reason, std::string detail);
+  void cancel_task(Task& task);
+  void tell_task(JobId id);
+  void motion_changed(Task& task, JobId motion);
+  [[nodiscard]] bool any_stopped(const Task& task) const;
+  [[nodiscard]] bool is_recorded(const Task& task);
+  void wake_at(TimePoint when);
+  void interrupt(bool keeps_waiting);
+  void forget_oldest(JobId ended);
+  void forget_job(JobId id, const std::string& key);
+
   void enter(Submit submitted, JobLabel label);
   struct OpenInquiry;
   void plan_next(const std::shared_ptr<OpenInquiry>& inquiry);
@@ -128,6 +159,11 @@ class Executive::Impl {
   StateWatch watch_;
   LinkWatch links_;
   std::optional<WindDown> wind_down_;
+  TimePoint task_wakes_at_ = TimePoint::max();  // a wait of a step is over
+  std::set<JobId> tasks_at_end_;                // their last motion has ended
+  bool tasks_are_busy_ = false;                 // go_on_with_tasks() runs
+  // Objects that the hands of ended tasks may still touch, with their arms.
+  std::map<std::string, std::vector<ArmId>> touch_left_;
 };
 
 }  // namespace armloom

@@ -12,6 +12,8 @@ Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<Ti
   if (!id) return failure(id.error());
   if (at) {
     clock_.held.hold(key, *at);
+  } else if (Task* task = tasks_.find(*id)) {
+    cancel_task(*task);
   } else {
     step(Cancel{*id});
   }
@@ -22,7 +24,7 @@ void Executive::Impl::roll_back(const std::string& key) {
   const auto id = jobs_.find(key);
   if (!id) return;
   rolled_back_.push_back(*id);
-  if (jobs_.not_ended(key)) step(Cancel{*id});
+  if (jobs_.not_ended(key)) static_cast<void>(cancel(key, {}));
   forget_rolled_back();
 }
 
@@ -30,10 +32,10 @@ void Executive::Impl::roll_back(const std::string& key) {
 void Executive::Impl::forget_rolled_back() {
   std::erase_if(rolled_back_, [this](JobId id) {
     const Step* step = scheduler_.find(id);
-    if (step != nullptr && !step->has_ended()) return false;
-    publisher_.forget(id, jobs_.key(id));
+    if (step != nullptr && !is_terminal(jobs_.state(id))) return false;
+    const std::string key = jobs_.key(id);
     jobs_.forget(id);
-    scheduler_.forget(id);
+    forget_job(id, key);
     return true;
   });
 }
@@ -42,18 +44,25 @@ Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amen
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
-  step(Amend{*id, amendment.terms});
+  const Task* task = tasks_.find(*id);
+  if (task == nullptr) {
+    step(Amend{*id, amendment.terms});
+  } else {
+    for (const JobId motion : task->motions()) step(Amend{motion, amendment.terms});
+  }
   return publisher_.view(*id);
 }
 
 Result<JobView> Executive::Impl::replan(const std::string& key) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
-  if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
+  const Task* task = tasks_.find(*id);
+  const JobId motion = task == nullptr ? *id : task->next_motion().value_or(*id);
+  if (const auto why = why_not_replanned(*scheduler_.find(motion))) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
                            "job \"" + key + "\" cannot be replanned: " + *why, key});
   }
-  step(Replan{*id});
+  step(Replan{motion});
   return publisher_.view(*id);
 }
 

@@ -75,6 +75,14 @@ Problem key_in_use(const std::string& key) {
 
 }  // namespace
 
+std::size_t PreparedJob::bytes() const {
+  std::size_t bytes = bytes_of(motion.alternatives);
+  for (const PreparedStep& step : steps) {
+    if (step.motion) bytes += bytes_of(step.motion->alternatives);
+  }
+  return bytes;
+}
+
 std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
   std::size_t bytes = 0;
   for (const TrajectoryPtr& trajectory : trajectories) bytes += trajectory->bytes();
@@ -104,6 +112,31 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                               "/start_when/io", "/start_when/value");
     if (bad) problems.push_back(*std::move(bad));
   }
+  PreparedMotion motion;
+  std::vector<PreparedJob::PreparedStep> steps;
+  if (request.steps.empty()) {
+    motion = read_motion(request, ahead, problems);
+  } else {
+    steps = read_steps(request, ahead, problems);
+  }
+  if (!problems.empty()) return failure(std::move(problems));
+  PreparedJob prepared{.key = std::move(request.key),
+                       .name = std::move(request.name),
+                       .motion = std::move(motion),
+                       .steps = std::move(steps),
+                       .terms = request.terms,
+                       .after = std::move(request.after)};
+  const std::size_t bytes = ahead.bytes + prepared.bytes();
+  if (auto problem = too_large(bytes)) return failure(*std::move(problem));
+
+  ahead.bytes = bytes;
+  ahead.keys.insert(prepared.key);
+  ++ahead.jobs;
+  return prepared;
+}
+
+PreparedMotion JobIntake::read_motion(const JobRequest& request, Ahead& ahead,
+                                      Problems& problems) const {
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
   if (!request.move_to && !request.arms.empty()) {
@@ -129,20 +162,9 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     motions = read_motions(request, ahead, problems);
     find_other_arm(*cell_, request.arm, motions, problems);
   }
-  if (!problems.empty()) return failure(std::move(problems));
-  const std::size_t bytes = ahead.bytes + bytes_of(motions);
-  if (auto problem = too_large(bytes)) return failure(*std::move(problem));
-
-  ahead.bytes = bytes;
+  if (!problems.empty()) return {};
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
-  ahead.keys.insert(request.key);
-  ++ahead.jobs;
-  return PreparedJob{.key = std::move(request.key),
-                     .name = std::move(request.name),
-                     .alternatives = std::move(motions),
-                     .goals = std::move(goals),
-                     .terms = request.terms,
-                     .after = std::move(request.after)};
+  return {std::move(motions), std::move(goals)};
 }
 
 std::optional<Problem> JobIntake::too_large(std::size_t bytes) const {
@@ -248,28 +270,52 @@ void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
     } else if (const auto known = jobs_.find(key); !known) {
       problems.push_back({ProblemKind::invalid, "unknown-job", pointer,
                           "no job before this one has the id \"" + key + "\"", key});
-    } else if (const Step& step = *scheduler_.find(*known);
-               step.has_ended() && step.state() != JobState::succeeded) {
-      problems.push_back(
-          {ProblemKind::invalid, "predecessor-failed", pointer,
-           "job \"" + key + "\" has ended without success: " + to_string(step.state()), key});
+    } else if (const JobState state = jobs_.state(*known);
+               is_terminal(state) && state != JobState::succeeded) {
+      problems.push_back({ProblemKind::invalid, "predecessor-failed", pointer,
+                          "job \"" + key + "\" has ended without success: " + to_string(state),
+                          key});
     }
   }
 }
 
-Submit JobIntake::submission(PreparedJob prepared) const {
-  std::vector<JobId> after;
-  for (const std::string& before : prepared.after) {
+std::vector<JobId> JobIntake::ids_of(const std::vector<std::string>& after) const {
+  std::vector<JobId> ids;
+  for (const std::string& before : after) {
     const auto job = jobs_.find(before);
     if (!job) continue;  // it is known to have succeeded
-    if (!is_terminal(scheduler_.find(*job)->state())) after.push_back(*job);
+    const Task* task = tasks_.find(*job);
+    const JobId last = task == nullptr ? *job : task->motions().back();
+    if (!is_terminal(scheduler_.find(last)->state())) ids.push_back(last);
   }
+  return ids;
+}
+
+Submit JobIntake::submission(PreparedJob prepared) const {
+  const std::vector<JobId> after = ids_of(prepared.after);
+  PreparedMotion& motion = prepared.motion;
   Submit job{.job = JobId{0},
-             .trajectory = prepared.alternatives.front(),
+             .trajectory = motion.alternatives.front(),
              .terms = prepared.terms,
-             .goals = std::move(prepared.goals),
-             .after = std::move(after)};
-  if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
+             .goals = std::move(motion.goals),
+             .after = after};
+  if (motion.alternatives.size() > 1) job.alternatives = std::move(motion.alternatives);
+  return job;
+}
+
+Submit JobIntake::submission(const PreparedJob& prepared, PreparedMotion motion,
+                             std::optional<JobId> before) const {
+  Submit job{.job = JobId{0},
+             .trajectory = motion.alternatives.front(),
+             .terms = prepared.terms,
+             .goals = std::move(motion.goals)};
+  if (!before) {
+    job.after = ids_of(prepared.after);
+    return job;
+  }
+  job.after = {*before};
+  job.terms.start_when.reset();
+  job.terms.move_to_start = MoveToStart::none;
   return job;
 }
 

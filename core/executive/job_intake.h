@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -8,21 +9,36 @@
 
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
+#include "core/executive/task.h"
+#include "core/executive/task_intake.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
+struct PreparedMotion {
+  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; usually the only one
+  std::vector<MotionGoal> goals;  // one for each of the trajectories, which are then estimates
+};
 // A request after all checks.
 struct PreparedJob {
   std::string key;  // generated if empty
   std::string name;
-  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; usually the only one
-  std::vector<MotionGoal> goals;  // one for each of the trajectories, which are then estimates
+  PreparedMotion motion = {};  // unless it is a task
+  struct PreparedStep {
+    TaskStep step;
+    std::optional<PreparedMotion> motion;
+  };
+  std::vector<PreparedStep> steps = {};  // of a task
   JobTerms terms;
   std::vector<std::string> after;
+
+  [[nodiscard]] std::size_t bytes() const;
 };
 
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
+
+// Returns a problem if the job has steps, because such a job cannot be checked before it runs.
+[[nodiscard]] std::optional<Problem> find_unchecked_steps(const JobRequest& request);
 
 // Checks requests against the cell and the accepted jobs.
 class JobIntake {
@@ -32,9 +48,20 @@ class JobIntake {
     std::size_t jobs;
     std::size_t bytes;
   };
-  // `scheduler` and `jobs` outlive this object.
-  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
-      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
+  // The sources that jobs are checked against; they outlive this object.
+  struct Seen {
+    const Scheduler& scheduler;
+    const JobRegister& jobs;
+    const TaskBook& tasks;
+    std::function<PlanningScenePtr()> scene;  // the present one
+  };
+  JobIntake(CellPtr cell, const Seen& seen, ActiveMax active_max)
+      : cell_(std::move(cell)),
+        scheduler_(seen.scheduler),
+        jobs_(seen.jobs),
+        tasks_(seen.tasks),
+        scene_(seen.scene),
+        active_max_(active_max) {}
 
   // The state after all earlier jobs, also of the same batch. Requests are checked against it.
   struct Ahead {
@@ -49,11 +76,26 @@ class JobIntake {
   [[nodiscard]] Ahead ahead() const;
   // Checks a request completely; stores nothing. Updates `ahead` for the next request of a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
+  // Precondition: no task.
   [[nodiscard]] Submit submission(PreparedJob prepared) const;
+  // Returns the submission of a motion of a task. `before`: the motion before it.
+  [[nodiscard]] Submit submission(const PreparedJob& prepared, PreparedMotion motion,
+                                  std::optional<JobId> before) const;
   // The server is ending: refuses all further jobs.
   void close() { is_closed_ = true; }
 
  private:
+  // Reads a motion, and updates `ahead` if there are no problems.
+  [[nodiscard]] PreparedMotion read_motion(const JobRequest& request, Ahead& ahead,
+                                           Problems& problems) const;
+  [[nodiscard]] std::vector<PreparedJob::PreparedStep> read_steps(const JobRequest& request,
+                                                                  Ahead& ahead,
+                                                                  Problems& problems) const;
+  // Reads a motion of a task.
+  [[nodiscard]] PreparedMotion read_step(const StepRequest& asked, const JobRequest& request,
+                                         bool is_first, Ahead& ahead, Problems& problems) const;
+  [[nodiscard]] PresentObjects present_objects() const;
+  [[nodiscard]] std::vector<JobId> ids_of(const std::vector<std::string>& after) const;
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
                                                         Problems& problems) const;
   // Validates a motion; an implicit start is the position after the earlier jobs.
@@ -76,6 +118,8 @@ class JobIntake {
   CellPtr cell_;
   const Scheduler& scheduler_;
   const JobRegister& jobs_;
+  const TaskBook& tasks_;
+  std::function<PlanningScenePtr()> scene_;
   ActiveMax active_max_;
   bool is_closed_ = false;
 };

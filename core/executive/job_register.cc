@@ -45,7 +45,7 @@ std::optional<JobId> JobRegister::find(const std::string& key) const {
 }
 
 const JobLabel* JobRegister::label(JobId id) const {
-  const auto found = labels_.find(id);
+  const auto found = labels_.find(tasks_.told(id));
   return found == labels_.end() ? nullptr : &found->second;
 }
 
@@ -76,6 +76,11 @@ std::string JobRegister::name(JobId job) const {
   return known == nullptr ? std::string() : known->name;
 }
 
+JobState JobRegister::state(JobId id) const {
+  const Task* task = tasks_.find(id);
+  return task == nullptr ? scheduler_.find(id)->state() : state_of(*task, scheduler_);
+}
+
 bool JobRegister::has_job(ArmId arm) const { return scheduler_.has_job(arm); }
 
 Result<JobId> JobRegister::not_ended(const std::string& key) const {
@@ -84,7 +89,7 @@ Result<JobId> JobRegister::not_ended(const std::string& key) const {
     return failure(Problem{ProblemKind::not_found, "no-such-job", "request target",
                            "there is no job \"" + key + "\"", key});
   }
-  const JobState state = scheduler_.find(*id)->state();
+  const JobState state = this->state(*id);
   if (is_terminal(state)) {
     return failure(Problem{
         ProblemKind::conflict, "job-has-ended", "",

@@ -11,6 +11,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/executive/task.h"
 #include "core/executive/views.h"
 #include "core/scheduler/scheduler.h"
 
@@ -33,9 +34,9 @@ class JobRegister final : public JobNames {
     std::size_t jobs;
     std::size_t bytes;  // of trajectories; the job that ended last always stays
   };
-  // `scheduler` outlives this object.
-  JobRegister(const Scheduler& scheduler, EndedMax ended_max)
-      : scheduler_(scheduler), ended_max_(ended_max) {}
+  // `scheduler` and `tasks` outlive this object.
+  JobRegister(const Scheduler& scheduler, const TaskBook& tasks, EndedMax ended_max)
+      : scheduler_(scheduler), tasks_(tasks), ended_max_(ended_max) {}
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
@@ -53,6 +54,9 @@ class JobRegister final : public JobNames {
   // Problems: not_found; conflict if it has ended.
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
+  // Returns the state of a job or task. Precondition: it is known.
+  [[nodiscard]] JobState state(JobId id) const;
+  // The label of a task is also that of its motions.
   [[nodiscard]] const JobLabel* label(JobId id) const;
   [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
   [[nodiscard]] std::size_t active_bytes() const { return active_bytes_; }
@@ -72,6 +76,7 @@ class JobRegister final : public JobNames {
  private:
   void take_out(JobId id);
   const Scheduler& scheduler_;
+  const TaskBook& tasks_;
   EndedMax ended_max_;
   std::size_t active_bytes_ = 0;
   std::size_t ended_bytes_ = 0;

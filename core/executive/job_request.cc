@@ -5,7 +5,7 @@
 namespace armloom {
 
 std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
-  if (move_to) return {};
+  if (move_to || !steps.empty()) return {};
   if (alternatives.empty()) return {{trajectory.place.value_or("/trajectory"), trajectory}};
   std::vector<PlacedMotion> all;
   for (std::size_t i = 0; i < alternatives.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "core/base/problem.h"
 #include "core/base/time.h"
+#include "core/executive/task_request.h"
 #include "core/jobs/job_terms.h"
 #include "core/planning/plan_goal.h"
 #include "core/trajectory/validate.h"
@@ -28,6 +29,8 @@ struct JobRequest {
   std::string arm = {};
   std::vector<std::string> arms = {};
   std::optional<double> speed = {};
+  // A task: instead of a trajectory, steps that are executed in this order.
+  std::vector<StepRequest> steps = {};
   JobTerms terms = {};
   std::vector<std::string> after;  // keys of jobs that must succeed first
   struct Known {

@@ -226,6 +226,16 @@ Result<SceneEdited> LiveScene::apply(PreparedEdit& prepared) {
                      std::move(prepared.made->removed)};
 }
 
+Result<void> LiveScene::change(PlanningScene::Content content) {
+  auto made = now_.scene->with(std::move(content));
+  if (!made) return failure(std::move(made.error()));
+  ClearanceQuery query = StateWatch::query_of(*made);
+  now_.scene = std::move(*made);
+  ++now_.version;
+  told_.changed(query);
+  return {};
+}
+
 Result<void> LiveScene::edit(SceneEdit edit) {
   PreparedEdit prepared = prepare(std::move(edit), now_.scene);
   if (auto done = apply(prepared); !done) return failure(std::move(done.error()));

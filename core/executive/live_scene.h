@@ -111,6 +111,10 @@ class LiveScene {
   // monitor's stop_clearance. The scene then stays as it was.
   [[nodiscard]] Result<SceneEdited> apply(PreparedEdit& prepared);
 
+  // Changes what arms hold, and what may touch. Not an input: it follows from the inputs. Problems:
+  // those of PlanningScene::with().
+  [[nodiscard]] Result<void> change(PlanningScene::Content content);
+
   // Prepare and apply an edit at once.
   [[nodiscard]] Result<void> add(CollisionObject object);
   [[nodiscard]] Result<void> replace(CollisionObject object);

@@ -5,6 +5,7 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
+#include "core/executive/task_view.h"
 
 namespace armloom {
 
@@ -47,7 +48,14 @@ void Publisher::tell_signal(SignalId signal, TimePoint now) {
 
 SceneView Publisher::scene() const {
   const PlanningScenePtr& scene = shown_.scene.scene();
-  return {shown_.scene.version(), {scene, &scene->objects()}};
+  SceneView view{shown_.scene.version(), {scene, &scene->objects()}};
+  for (const Attachment& held : scene->attachments()) {
+    const Link& link = shown_.cell.link(held.link);
+    view.held.push_back({{held.object.name, held.object.shape, held.X_LO},
+                         link.name,
+                         shown_.cell.arm(*link.arm).name});
+  }
+  return view;
 }
 
 void Publisher::tell_job(JobView view, TimePoint now) {
@@ -150,11 +158,14 @@ std::vector<ArmAuthority> Publisher::authorities() const {
 }
 
 JobView Publisher::view(JobId id) const {
-  JobView view = view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs);
-  view.times.expires_at = shown_.scheduler.expiry(id);
+  const Task* task = shown_.tasks.find(id);
+  const JobId shown = task == nullptr ? id : task->next_motion().value_or(id);
+  JobView view = task == nullptr ? view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs)
+                                 : view_of(*task, shown_.scheduler, shown_.cell, shown_.jobs);
+  view.times.expires_at = shown_.scheduler.expiry(shown);
   const JobLabel* label = shown_.jobs.label(id);
   if (label != nullptr && label->submitted_at) view.times.submitted_at = *label->submitted_at;
-  if (const auto refusal = shown_.gate.refusal(only_step(id))) {
+  if (const auto refusal = shown_.gate.refusal(only_step(shown))) {
     WaitView& wait = view.waits_on.emplace_back(WaitView{.kind = Wait::Kind::guard});
     if (refusal->other) wait.arm = shown_.cell.arm(*refusal->other).name;
     wait.detail = sentence(*refusal, shown_.cell);

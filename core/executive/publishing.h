@@ -15,6 +15,7 @@
 #include "core/executive/signals.h"
 #include "core/executive/start_gate.h"
 #include "core/executive/status_board.h"
+#include "core/executive/task.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
@@ -33,6 +34,7 @@ class Publisher {
     const StartGate& starts;
     const LiveScene& scene;
     const Signals& signals;
+    const TaskBook& tasks;
   };
   Publisher(const Shown& shown, Observer& observer);
 

@@ -59,7 +59,14 @@ Signals::Signals(const IoDescription& io, Write write, Told told)
 }
 
 Result<SignalView> Signals::set(const std::string& name, const SignalValue& value) {
-  const TimePoint now = told_.asked({ExecutiveInput::SignalSet{name, value}});
+  return take(name, value, told_.asked({ExecutiveInput::SignalSet{name, value}}));
+}
+
+Result<SignalView> Signals::command(const std::string& name, const SignalValue& value) {
+  return take(name, value, told_.now());
+}
+
+Result<SignalView> Signals::take(const std::string& name, const SignalValue& value, TimePoint now) {
   auto bad = find_bad_value(io_, name, value, ProblemKind::not_found, "", "/value");
   if (bad) return failure(*std::move(bad));
   const auto id = io_.find_signal(name);

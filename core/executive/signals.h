@@ -44,6 +44,7 @@ class Signals {
     // Called with each request, also an invalid one. Returns the present time.
     std::function<TimePoint(const ExecutiveInput&)> asked;
     std::function<void(SignalId)> changed;  // called after a change of the signal's view
+    std::function<TimePoint()> now;
   };
   Signals(const IoDescription& io, Write write, Told told);
 
@@ -52,10 +53,14 @@ class Signals {
   // Sets an output, or a simulated input. Problems: an unknown signal; a value of another type; an
   // input of a device (conflict); an output of a device that is not connected (unavailable).
   [[nodiscard]] Result<SignalView> set(const std::string& name, const SignalValue& value);
+  // The same for a step of a job, which is no input of its own.
+  [[nodiscard]] Result<SignalView> command(const std::string& name, const SignalValue& value);
   // Takes the report of a device. Ignores reports of unknown devices.
   void report(const IoReport& report);
 
  private:
+  [[nodiscard]] Result<SignalView> take(const std::string& name, const SignalValue& value,
+                                        TimePoint now);
   void see(SignalId signal, std::optional<SignalValue> value, const IoReport& report,
            TimePoint now);
 

@@ -16,6 +16,13 @@ Dispatch StartGate::pass(Dispatch dispatch, std::function<void()> written) {
   return dispatch;
 }
 
+bool StartGate::record(JobId job, std::function<void()> written) {
+  if (log_ == nullptr) return true;
+  const auto [start, is_first] = starts_.try_emplace(job);
+  if (is_first) log_->about_to_move(job, std::move(written));
+  return start->second.is_written;
+}
+
 bool StartGate::keeps(const Grant& grant) {
   if (!withholds(grant.step.job)) return false;
   starts_.at(grant.step.job).withheld = grant.authority;

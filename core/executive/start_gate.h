@@ -22,6 +22,8 @@ class StartGate {
   // Returns the dispatch of a client job with the authority that the arms may get now. At the job's
   // first dispatch, asks the log to record the start; the log calls `written` when that is done.
   [[nodiscard]] Dispatch pass(Dispatch dispatch, std::function<void()> written);
+  // Returns true if the start of the job is recorded. Asks for it the first time.
+  [[nodiscard]] bool record(JobId job, std::function<void()> written);
   // Returns true if the grant must wait; the gate then keeps it.
   [[nodiscard]] bool keeps(const Grant& grant);
   // The start is recorded: returns the withheld authority, if any.

@@ -48,6 +48,7 @@ Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobReq
 }
 
 JobView Executive::Impl::accept(PreparedJob prepared) {
+  if (!prepared.steps.empty()) return accept_task(std::move(prepared));
   const JobId id = scheduler_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
   if (label.key.empty()) label.key = jobs_.free_key(id);
@@ -77,6 +78,11 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
       continue;
     }
     JobLabel label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
+    if (!prepared->steps.empty()) {
+      enter_task(std::move(*prepared), job.id, std::move(label), true);
+      answers.push_back(publisher_.view(job.id));
+      continue;
+    }
     Submit submitted = intake_.submission(std::move(*prepared));
     submitted.job = job.id;
     submitted.is_held_over = true;

@@ -7,7 +7,7 @@
 namespace armloom {
 
 void validate_ahead(JobRequest& request, const Cell& cell) {
-  if (request.move_to) return;
+  if (request.move_to || !request.steps.empty()) return;
   request.known.validated.clear();
   const auto motions = request.motions();
   // These are completed on the strand, which knows where the arms will be.

@@ -44,10 +44,20 @@ struct Submit {
   bool is_held_over = false;
   // The job does not move before StartRecorded, and cannot overrun until then.
   bool start_is_recorded = false;
+  // A motion of a task: the job of the task's first motion, which is this job itself for the first.
+  std::optional<JobId> task = {};
+  // Actions of its task come before this motion: it is not planned, and does not start, before
+  // ActionsDone.
+  bool awaits_actions = false;
 };
 // The start of a step whose job waits for it is on disk: its arms can move.
 struct StartRecorded {
   StepId step;
+};
+// The actions before this motion of a task are done.
+struct ActionsDone {
+  JobId job;
+  TrajectoryPtr motion = nullptr;  // instead of the job's; moves the same arms
 };
 struct Cancel {
   JobId job;
@@ -101,7 +111,7 @@ struct MotionReport {
   std::optional<Duration> rests_at = {};
 };
 // The authority guard has refused the step's authority for AuthorityGate::kMissing, because an arm
-// is not where the passing orders assume. The step's arms brake. Its orders are decided anew when
+// is not where the passing orders assume. The step's arms brake. Its orders are decided again when
 // anything changes.
 struct Refused {
   StepId step;
@@ -171,9 +181,9 @@ struct Interrupt {
 // The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
-using Input = std::variant<Submit, StartRecorded, Cancel, Amend, Replan, Judged, PlanMade,
-                           MotionReport, Refused, Stop, Resume, Located, Unlocated, SceneChanged,
-                           SetSpeed, SignalChanged, ChangePolicy, Interrupt, Wake>;
+using Input = std::variant<Submit, StartRecorded, ActionsDone, Cancel, Amend, Replan, Judged,
+                           PlanMade, MotionReport, Refused, Stop, Resume, Located, Unlocated,
+                           SceneChanged, SetSpeed, SignalChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

@@ -23,8 +23,10 @@ struct Job {
   std::vector<JobId> after = {};  // jobs of Submit::after that have not ended yet
   bool system_job = false;        // as in Submit
   bool is_held_over = false;
-  bool awaits_record = false;  // StartRecorded
-  JobId turn;                  // rank among jobs: the job's own id, unless jobs were reordered
+  bool awaits_record = false;      // StartRecorded
+  std::optional<JobId> task = {};  // as in Submit
+  bool awaits_actions = false;     // ActionsDone
+  JobId turn;                      // rank among jobs: the job's own id, unless jobs were reordered
   Errand errand;
   TimePoint submitted_at{};
   // The deadlock cycle that contains the job, this job first; empty if there is none. Each job

@@ -58,7 +58,20 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard, speed, io };
+  enum class Kind {
+    job,
+    arm,
+    object,
+    predecessor,
+    capacity,
+    stop,
+    plan,
+    check,
+    guard,
+    speed,
+    io,
+    action
+  };
   Kind kind;
   std::optional<JobId> job;  // job, predecessor, capacity
   // arm, stop; speed: if it is the arm's override; job: the other arm that comes too close
@@ -105,6 +118,8 @@ struct Wait {
       return "speed";
     case Wait::Kind::io:
       return "io";
+    case Wait::Kind::action:
+      return "action";
   }
   return nullptr;
 }
@@ -120,8 +135,9 @@ enum class Reason {
   arm_fault,
   overrun,  // has exceeded duration x duration_scaling + duration_margin, and does not move
   server_restart,
-  deadlock,  // it was in a deadlock cycle and was submitted last
-  no_plan,   // no path to the goal was found, or every plan was out of date when it arrived
+  deadlock,     // it was in a deadlock cycle and was submitted last
+  step_failed,  // an action of the job could not be done, or waited too long
+  no_plan,      // no path to the goal was found, or every plan was out of date when it arrived
 };
 [[nodiscard]] constexpr const char* to_string(Reason reason) {
   switch (reason) {
@@ -145,6 +161,8 @@ enum class Reason {
       return "server_restart";
     case Reason::deadlock:
       return "deadlock";
+    case Reason::step_failed:
+      return "step_failed";
     case Reason::no_plan:
       return "no_plan";
   }

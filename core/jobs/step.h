@@ -38,14 +38,14 @@ struct Pause {
 struct AfterStop {
   enum class Then {
     hold,
-    decide_anew,  // as `hold`, but its orders are dropped; `arm` and `detail` say why
+    decide_again,  // as `hold`, but its orders are dropped; `arm` and `detail` say why
     cancel,
     fail,
   };
   Then then = Then::hold;
   Reason reason = Reason::overrun;  // fail
-  std::string detail = {};          // fail, decide_anew
-  std::optional<ArmId> arm = {};    // decide_anew
+  std::string detail = {};          // fail, decide_again
+  std::optional<ArmId> arm = {};    // decide_again
 
   [[nodiscard]] bool ends() const { return then == Then::cancel || then == Then::fail; }
 };

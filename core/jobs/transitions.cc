@@ -38,6 +38,8 @@ Step step_of(const State& state, const Submit& job, const std::optional<Errand>&
                                        .system_job = job.system_job,
                                        .is_held_over = job.is_held_over,
                                        .awaits_record = job.start_is_recorded,
+                                       .task = job.task,
+                                       .awaits_actions = job.awaits_actions,
                                        .turn = job.job,
                                        .errand = errand.value_or(Errand{.on_behalf_of = job.job}),
                                        .submitted_at = state.now}),
@@ -249,7 +251,7 @@ void Transitions::come_to_rest(const Step& step, const MotionReport& report) {
     end_as(step, after, "braked on its path");
   } else if (step.has_started()) {
     return after.then == Then::hold ? enter(step, Held{}) : withdraw(step, after);
-  } else if (after.then == Then::decide_anew) {
+  } else if (after.then == Then::decide_again) {
     withdraw(step, after);
   } else {
     // It keeps its place between the others, but for objects that have come into its way.

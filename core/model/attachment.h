@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -14,6 +15,15 @@ struct Attachment {
   LinkId link;             // carries the object; an arm moves this link
   Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
   std::vector<LinkId> touch;  // links of any robot that the object may touch besides the hand
+  std::vector<std::string> touch_objects = {};  // objects of the scene that it may touch
+};
+
+// Links that may touch an object of the scene at present, besides those that the cell file allows.
+struct AllowedTouch {
+  std::string object;
+  std::vector<LinkId> links;
+
+  bool operator==(const AllowedTouch&) const = default;
 };
 
 // Returns, indexed by LinkId, true for each link of the hand to which `link` belongs. The hand is

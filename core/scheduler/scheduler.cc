@@ -55,7 +55,7 @@ void take(Transitions& state, const Refused& input) {
   const Step* step = state->jobs.find(input.step);
   if (step == nullptr || step->in<Moving>() == nullptr) return;
   state.brake(*step,
-              {.then = AfterStop::Then::decide_anew, .detail = input.detail, .arm = input.other});
+              {.then = AfterStop::Then::decide_again, .detail = input.detail, .arm = input.other});
 }
 
 void take(Transitions& state, const Stop& input) {
@@ -88,6 +88,12 @@ void take(Transitions& state, const StartRecorded& input) {
   if (step == nullptr) return;
   state.jobs().set(*step, with(*step->job, &Job::awaits_record, false));
   renew_clocks(state, *step, true);
+}
+void take(Transitions& state, const ActionsDone& input) {
+  const Step* step = state->jobs.find(input.job);
+  if (step == nullptr || step->has_ended()) return;
+  if (input.motion && step->in<Queued>() != nullptr) state.go_by(*step, input.motion);
+  state.jobs().set(*step, with(*step->job, &Job::awaits_actions, false));
 }
 void take(Transitions& state, const SetSpeed& input) { set_speed(state, input); }
 
@@ -254,7 +260,7 @@ void Scheduler::on(const MotionReport& input) {
     const auto* braking = step->in<Braking>();
     const AfterStop after = braking != nullptr ? braking->after : AfterStop{};
     state_.come_to_rest(*step, input);
-    if (after.then == AfterStop::Then::decide_anew && step->is_waiting()) {
+    if (after.then == AfterStop::Then::decide_again && step->is_waiting()) {
       put_off(state_, *step,
               {{.kind = Wait::Kind::guard, .arm = after.arm, .detail = after.detail}});
     }
@@ -264,6 +270,11 @@ void Scheduler::on(const MotionReport& input) {
 }
 
 // ---- What others read ----
+
+bool Scheduler::has_turn_for_actions(JobId job) const {
+  const Step* step = find(job);
+  return step != nullptr && !step->has_ended() && lacks_only_actions(state_, *step);
+}
 
 // The last job of an arm says where it ends.
 Configuration Scheduler::predicted_rest() const {
@@ -313,6 +324,11 @@ std::optional<TimePoint> Scheduler::expiry(JobId job) const {
 
 std::vector<JobId> Scheduler::active() const {
   return {state_->jobs.active().begin(), state_->jobs.active().end()};
+}
+
+std::optional<JobId> Scheduler::head(ArmId arm) const {
+  const auto& queue = state_->jobs.queues()[arm];
+  return queue.empty() ? std::nullopt : std::optional(queue.front().job);
 }
 
 std::optional<JobId> Scheduler::occupant(ArmId arm) const {

@@ -87,6 +87,10 @@ class Scheduler {
 
   [[nodiscard]] const Step* find(JobId job) const;  // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
+  // Returns true if the job could start but for the actions of its task before it.
+  [[nodiscard]] bool has_turn_for_actions(JobId job) const;
+  // Returns the first job of the arm's queue.
+  [[nodiscard]] std::optional<JobId> head(ArmId arm) const;
   // Returns true if the arm's queue has a job.
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_->jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_->arms.is_stopped(arm); }

@@ -26,7 +26,30 @@ FormatPtr<JobResultView> result_format() {
   return object<JobResultView>({
       output_only("reason", &JobResultView::reason, reason_format()),
       output_only("detail", &JobResultView::detail, text()),
+      output_if("step", &JobResultView::step, count(),
+                "Of a job with steps that did not succeed: index of the step at which it ended"),
   });
+}
+
+std::optional<std::vector<StepView>> steps_of(const JobView& job) {
+  return job.steps.empty() ? std::nullopt : std::optional(job.steps);
+}
+
+FormatPtr<StepView> step_format() {
+  using View = StepView;
+  return named(
+      "Step", "A step of a job.",
+      object<View>({
+          output_only("name", &View::name, text(), "Display name; may be empty"),
+          output_only(
+              "kind", &View::kind, text(),
+              "The member that names the step: trajectory, move_to, gripper, attach, detach, "
+              "wait_s, set_io or wait_io"),
+          output_only("state", &View::state, choice<StepState>()),
+          output_only("detail", &View::detail, text(), "What the step does; may be empty"),
+          output_only("arms", &View::arms, list(text()), "Arms that a motion moves"),
+          output_only("progress", &View::progress, number(kShare), "Progress of a motion"),
+      }));
 }
 
 FormatPtr<ChoiceView> choice_format() {
@@ -220,6 +243,9 @@ FormatPtr<JobView> job_format() {
                 inlined(&View::terms, job_terms_part()),
                 inlined(&View::times, times_part()),
                 inlined(&View::motion, motion_part()),
+                output_if("steps", steps_of, list(step_format()), "Only of a job with steps"),
+                output_if("step", &View::step, count(),
+                          "Only of a job with steps: index of the present step"),
                 output_only("waits_on", &View::waits_on, list(wait_format()),
                             "Reasons to wait; empty if the job does not wait"),
                 inlined(&View::ways, ways_part()),

@@ -12,6 +12,7 @@
 #include "server/codec/value_formats.h"
 #include "server/messages/job_terms.h"
 #include "server/messages/plan_goal.h"
+#include "server/messages/task_request.h"
 #include "server/messages/time_max.h"
 #include "server/messages/trajectory_request.h"
 
@@ -32,6 +33,10 @@ bool is_key(std::string_view key) {
 std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
   std::vector<TrajectoryRequest*> motions{&request.trajectory};
   for (TrajectoryRequest& other : request.alternatives) motions.push_back(&other);
+  for (StepRequest& step : request.steps) {
+    auto* motion = std::get_if<MotionStepRequest>(&step.what);
+    if (motion != nullptr && !motion->move_to) motions.push_back(&motion->trajectory);
+  }
   return motions;
 }
 
@@ -101,7 +106,9 @@ PartPtr<JobRequest> arm_part() {
         return request.arm.empty() ? std::nullopt : std::optional(request.arm);
       },
       [](Request& request, std::string arm) {
-        request.trajectory.arm = arm;
+        for (TrajectoryRequest* motion : motions_of(request)) {
+          if (motion->arm.empty()) motion->arm = arm;
+        }
         request.arm = std::move(arm);
       });
 }
@@ -178,8 +185,6 @@ PartPtr<JobRequest> label_parts() {
       field("after", &Request::after,
             list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
             "Ids of jobs that must succeed first"),
-      not_served<Request>({"steps", "not-served",
-                           "\"steps\" are not supported by this version: give one \"trajectory\""}),
       not_served<Request>(
           {"sub_trajectory", "not-served",
            "a task's solution has several pieces: send the \"trajectory\" of each as a "
@@ -242,7 +247,7 @@ FormatPtr<JobRequest> plain_job_format() {
       "JobRequest", "",
       object<Request>({
           label_parts(),
-          unless_refused(
+          unless(
               "steps",
               unless_refused(
                   "sub_trajectory",
@@ -252,6 +257,10 @@ FormatPtr<JobRequest> plain_job_format() {
                                        unless("args", required("trajectory", &Request::trajectory,
                                                                trajectory_request_format(),
                                                                "Motion of the job"))))))),
+          field("steps", &Request::steps,
+                list(step_request_format(), {.fewest = 1, .most = kStepsMax, .noun = "steps"}),
+                "Instead of `trajectory`: steps that are executed in this order. Other jobs of the "
+                "same arms wait until the last motion has ended"),
           field("goal", &Request::trajectory, action_goal_format(),
                 "Instead of `trajectory`: the goal of an action"),
           field("args", &Request::trajectory, action_goal_format(),
@@ -269,7 +278,7 @@ FormatPtr<JobRequest> plain_job_format() {
                 "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
                 "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
-          at_most_one<Request>({"trajectory", "alternatives", "move_to", "goal", "args"}),
+          at_most_one<Request>({"trajectory", "alternatives", "move_to", "goal", "args", "steps"}),
           parts_after_trajectory(),
           wrapper_parts(),
       }));

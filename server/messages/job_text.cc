@@ -156,8 +156,10 @@ std::string remedy_of(const Schema& job, const Present& now) {
   if (waits_on(job, "speed")) {
     return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
   }
+  if (waits_on(job, "action")) return " It goes on by itself when this step is done.";
   if (waits_on(job, "io")) {
-    return " It starts by itself when the signal has this value; GET /api/v1/io shows all signals. "
+    return " It goes on by itself when the signal has this value; GET /api/v1/io shows all "
+           "signals. "
            "Or " +
            cancel + ".";
   }

@@ -91,6 +91,8 @@ FormatPtr<SceneRequest> scene_request_format() {
                 required("objects", &Request::objects,
                          list(object_request_format(), {.most = kObjectsMax, .noun = "objects"}),
                          "The objects; a name of an object of the cell file replaces that object"),
+                ignored<Request>("held", anything("array"),
+                                 "Ignored: steps of jobs attach and detach objects"),
                 field("version", &Request::version, count(),
                       "Version that the scene must have, as in GET /scene; 409 if it has another "
                       "version. Default: any version"),
@@ -151,6 +153,20 @@ FormatPtr<CollisionObject> object_format() {
   return format;
 }
 
+namespace {
+
+FormatPtr<HeldView> held_format() {
+  return named("HeldObject", "An object that an arm holds.",
+               object<HeldView>({
+                   output_only("object", &HeldView::object, object_format(),
+                               "The object, with its pose in the frame of `link`"),
+                   output_only("link", &HeldView::link, text(), "Link that carries the object"),
+                   output_only("arm", &HeldView::arm, text(), "Arm that moves the link"),
+               }));
+}
+
+}  // namespace
+
 FormatPtr<SceneView> scene_format() {
   static const auto format =
       named("Scene", "",
@@ -160,6 +176,8 @@ FormatPtr<SceneView> scene_format() {
                 output_only(
                     "objects", [](const SceneView& view) { return &view.objects(); },
                     list(object_format())),
+                output_only("held", &SceneView::held, list(held_format()),
+                            "Objects that arms hold; they are not in `objects`"),
             }));
   return format;
 }

@@ -127,7 +127,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"AfterIsText", "/after", "\"x\"", kMalformed, "an array"},
         BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
         BadField{"FasterThanPlanned", "/velocity_scaling_factor", "2", kInvalid, "0.001..1"},
-        BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not supported"},
         BadField{"RetimeIsNoFlag", "/retime", "1", kMalformed, "true, false"}),
     [](const auto& tested) { return tested.param.name; });
 
@@ -249,6 +248,47 @@ TEST(JobCodec, BoundsTheListOfFaults) {
   const auto job = read_job(body);
   ASSERT_FALSE(job);
   EXPECT_EQ(job.error().size(), 20U);
+}
+
+TEST(Steps, AreReadInOrder) {
+  const auto job = read_job(json::parse(R"({"steps": [
+      {"move_to": {"named": "ready"}, "arm": "left", "name": "down",
+       "triggers": [{"at": 0.9, "set_io": {"name": "b", "value": 2}},
+                    {"at": 0.5, "set_io": {"name": "a", "value": true}}]},
+      {"gripper": {"arm": "left", "width_m": 0.04}},
+      {"attach": {"object": "rod", "link": "left_panda_hand", "touch": ["table"]}},
+      {"wait_s": 0.5}, {"set_io": {"name": "a", "value": false}},
+      {"wait_io": {"name": "b", "value": 3, "timeout_s": 2}},
+      {"detach": {"object": "rod"}}]})"));
+  ASSERT_TRUE(job);
+  std::string kinds;
+  for (const StepRequest& step : job->steps) kinds += std::string(kind_of(step)) + " ";
+  EXPECT_EQ(kinds, "move_to gripper attach wait_s set_io wait_io detach ");
+  EXPECT_EQ(job->steps[0].name, "down");
+  const auto& triggers = std::get<MotionStepRequest>(job->steps[0].what).triggers;
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_EQ(triggers[0].signal, "a") << "in order of their shares";
+  EXPECT_EQ(std::get<WaitIoRequest>(job->steps[5].what).timeout, std::chrono::seconds(2));
+}
+
+TEST(Steps, AreRefusedWithPointers) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({})", "/steps/0"},
+      {R"({"wait_s": 1, "detach": {"object": "rod"}})", "/steps/0"},
+      {R"({"wait_s": -1})", "/steps/0/wait_s"},
+      {R"({"wait_s": 1, "arm": "left"})", "/steps/0"},
+      {R"({"attach": {"object": "rod"}})", "/steps/0/attach/link"},
+      {R"({"wait_s": 1, "retry": 2})", "/steps/0/retry"},
+      {R"({"move_to": {"named": "ready"}, "arm": "left",
+           "triggers": [{"at": 1.5, "set_io": {"name": "a", "value": true}}]})",
+       "/steps/0/triggers/0/at"},
+  };
+  for (const auto& [text, pointer] : cases) {
+    const auto job = read_job(json{{"steps", json::array({json::parse(text)})}});
+    ASSERT_FALSE(job) << text;
+    EXPECT_EQ(job.error().front().pointer, pointer) << text << job.error().front().detail;
+  }
+  EXPECT_FALSE(read_job(json{{"steps", json::array()}}));
 }
 
 TEST(JobCodec, RefusesTooManyWaypointsBeforeReadingThem) {

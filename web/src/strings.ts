@@ -868,6 +868,8 @@ export const kText = {
     short_check: 'is being checked',
     short_guard: 'blocked by the authority guard',
     short_speed: 'speed override is 0 %',
+    for_action: (detail: string) => (detail === '' ? 'waits for an action of the job' : detail),
+    short_action: 'waits for an action',
     for_signal: (name: string, detail: string) => (detail === '' ? `waits for the signal ${name}` : detail),
     past: (words: string, duration: string) => `${words} (${duration})`,
     was_waiting: 'waited',

@@ -77,6 +77,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'guard': return words.guard(String(w.detail));
     case 'speed': return words.for_speed(w.arm === null ? words.the_cell : shown_name(w.arm));
     case 'io': return words.for_signal(shown_name(w.id ?? ''), shown_text(w.detail ?? ''));
+    case 'action': return words.for_action(shown_text(w.detail ?? ''));
   }
 }
 
@@ -189,6 +190,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
     case 'io': return words.short_for(shown_name(first.id ?? ''));
+    case 'action': return words.short_action;
   }
 }
 

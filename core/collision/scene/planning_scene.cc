@@ -87,8 +87,8 @@ void add_link(PlanningScene::Bodies& scene, LinkId id) {
 // Returns true if the attached object may touch the other body.
 bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held,
                   const CollisionBody& other) {
-  if (!other.carrier) return false;
   const Attachment& attachment = (*scene.attachments)[held - scene.links_end];
+  if (!other.carrier) return std::ranges::count(attachment.touch_objects, other.name) > 0;
   if (hand_of(*scene.cell, attachment.link)[other.carrier->index()]) return true;
   if (!other.link) return false;
   return std::ranges::find(attachment.touch, *other.link) != attachment.touch.end() ||
@@ -207,6 +207,9 @@ void add_objects(PlanningScene::Bodies& scene, const FittedShapes& fitted) {
   for (const auto& [link, object] : scene.cell->allowed.link_objects) {
     touching[object].push_back(link);
   }
+  for (const auto& [object, links] : scene.touch) {
+    std::ranges::copy(links, std::back_inserter(touching[object]));
+  }
   FittedShapes used;
   std::map<ShapeKey, std::pair<std::size_t, std::size_t>> ranges;  // in `shapes`
   for (const CollisionObject& object : scene.objects) {
@@ -227,7 +230,8 @@ void add_objects(PlanningScene::Bodies& scene, const FittedShapes& fitted) {
     body.shapes_end = end;
     body.sphere = own->sphere;
     body.fitted = own->fitted;
-    body.content = fingerprint_of_object(object);
+    const auto now = std::ranges::find(scene.touch, object.name, &AllowedTouch::object);
+    body.content = fingerprint_of_object(object, now == scene.touch.end() ? nullptr : &*now);
     const auto links = touching.find(object.name);
     if (links != touching.end()) body.touched_by = links->second;
     add_body(scene, std::move(body));
@@ -269,6 +273,7 @@ const SceneFingerprint& PlanningScene::fingerprint() const { return bodies_->fin
 
 const std::vector<CollisionObject>& PlanningScene::objects() const { return bodies_->objects; }
 const std::vector<Attachment>& PlanningScene::attachments() const { return *bodies_->attachments; }
+const std::vector<AllowedTouch>& PlanningScene::touch() const { return bodies_->touch; }
 
 bool PlanningScene::holds_as(const PlanningScene& other) const {
   return bodies_->attachments == other.bodies_->attachments ||
@@ -296,34 +301,40 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
 }
 
 Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject> objects) const {
-  Problems problems;
-  find_object_problems(objects, attachments(), problems);
-  if (!problems.empty()) return failure(std::move(problems));
-
-  const std::shared_ptr<PlanningScene> scene(new PlanningScene);
-  Bodies& bodies = *scene->bodies_;
-  bodies = *bodies_;
-  cut(bodies, bodies.held_end);
-  bodies.objects = std::move(objects);
-  add_objects(bodies, bodies_->fitted);
-  return PlanningScenePtr(scene);
+  return with({std::move(objects), std::nullopt, touch()});
 }
 
 Result<PlanningScenePtr> PlanningScene::with_attachments(
     std::vector<Attachment> attachments) const {
+  return with({objects(), std::move(attachments), touch()});
+}
+
+Result<PlanningScenePtr> PlanningScene::with(Content content) const {
   Problems problems;
-  find_attachment_problems(cell(), objects(), attachments, problems);
+  if (content.attachments) {
+    find_object_problems(content.objects, {}, problems);
+    find_attachment_problems(cell(), content.objects, *content.attachments, problems);
+  } else {
+    find_object_problems(content.objects, attachments(), problems);
+  }
   if (!problems.empty()) return failure(std::move(problems));
 
   const std::shared_ptr<PlanningScene> scene(new PlanningScene);
   Bodies& bodies = *scene->bodies_;
   bodies = *bodies_;
-  cut(bodies, bodies.links_end);
-  bodies.attachments = std::make_shared<const std::vector<Attachment>>(std::move(attachments));
-  bodies.fingerprint.arms =
-      fingerprint_of_arms(cell(), bodies.links_fingerprint, *bodies.attachments);
-  add_held(bodies);
-  set_reach(bodies);
+  bodies.objects = std::move(content.objects);
+  bodies.touch = std::move(content.touch);
+  if (content.attachments) {
+    cut(bodies, bodies.links_end);
+    bodies.attachments =
+        std::make_shared<const std::vector<Attachment>>(std::move(*content.attachments));
+    bodies.fingerprint.arms =
+        fingerprint_of_arms(cell(), bodies.links_fingerprint, *bodies.attachments);
+    add_held(bodies);
+    set_reach(bodies);
+  } else {
+    cut(bodies, bodies.held_end);
+  }
   add_objects(bodies, bodies_->fitted);
   return PlanningScenePtr(scene);
 }

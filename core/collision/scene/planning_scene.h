@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,16 @@ class PlanningScene {
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_attachments(
       std::vector<Attachment> attachments) const;
   [[nodiscard]] const std::vector<Attachment>& attachments() const;
+
+  // The parts of the scene that may change while the server runs.
+  struct Content {
+    std::vector<CollisionObject> objects;
+    std::optional<std::vector<Attachment>> attachments = {};  // nullopt: unchanged
+    std::vector<AllowedTouch> touch = {};                     // by name, also of future objects
+  };
+  // Returns a scene with this content. Problems: those of with_objects() and with_attachments().
+  [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with(Content content) const;
+  [[nodiscard]] const std::vector<AllowedTouch>& touch() const;
   // Returns true if both scenes have the attached objects of the same call of with_attachments(),
   // or no attached objects. Then their links and attached objects are equal if their cell is the
   // same.

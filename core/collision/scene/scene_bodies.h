@@ -48,8 +48,8 @@ struct CollisionBody {
   bool has_pieces = false;  // some shapes are pieces of a closed mesh
   bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
   LinkCapsules fitted;      // capsules around all shapes, in P
-  // Objects only: hash of the name, the shape and the pose; and the links that may touch the
-  // object.
+  // Objects only: hash of the name, the shape, the pose and AllowedTouch; and the links that may
+  // touch the object.
   Fingerprint content = 0;
   std::vector<LinkId> touched_by = {};
 
@@ -122,6 +122,7 @@ struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
   std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
+  std::vector<AllowedTouch> touch;
   // In this order: links by id, attached objects, objects.
   std::vector<CollisionBody> bodies;
   std::size_t links_end = 0;  // end of the links in `bodies`

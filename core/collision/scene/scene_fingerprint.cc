@@ -99,16 +99,21 @@ std::vector<Fingerprint> fingerprint_of_arms(const Cell& cell, const SceneFinger
     hash.add(attachment.link.index());
     add(hash, attachment.X_LO);
     for (const LinkId touch : attachment.touch) hash.add(touch.index());
+    hash.add(attachment.touch_objects.size());
+    for (const std::string& touch : attachment.touch_objects) hash.add(touch);
     arm = hash.value();
   }
   return arms;
 }
 
-Fingerprint fingerprint_of_object(const CollisionObject& object) {
+Fingerprint fingerprint_of_object(const CollisionObject& object, const AllowedTouch* touch) {
   ContentHash hash;
   hash.add(object.name);
   add(hash, object.shape);
   add(hash, object.X_WO);
+  if (touch != nullptr) {
+    for (const LinkId link : touch->links) hash.add(link.index());
+  }
   return hash.value();
 }
 

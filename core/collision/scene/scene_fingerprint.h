@@ -22,8 +22,9 @@ namespace armloom {
 // Returns the hash of each arm: its hash in `links`, combined with its attached objects.
 [[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
     const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
-// Returns the hash of an object: CollisionBody::content.
-[[nodiscard]] Fingerprint fingerprint_of_object(const CollisionObject& object);
+// Returns the hash of an object: CollisionBody::content. `touch`: of this object; may be null.
+[[nodiscard]] Fingerprint fingerprint_of_object(const CollisionObject& object,
+                                                const AllowedTouch* touch);
 // Returns SceneFingerprint::objects. Precondition: `bodies` is complete; pairs and groups may be
 // missing.
 [[nodiscard]] std::vector<std::vector<Fingerprint>> fingerprint_of_objects(

@@ -57,12 +57,12 @@ void find_object_problems(const std::vector<CollisionObject>& objects,
     const bool taken = is_held(name);
     const auto [known, is_first] = names.emplace(name, i);
     if (is_first && !taken) continue;
-    problems.push_back({ProblemKind::conflict, "name-taken", place(i) + "/name",
-                        taken ? "an attached object is already named " + name
-                              : "objects " + std::to_string(known->second) + " and " +
-                                    std::to_string(i) + " are both named " + name +
-                                    ": give each object its own name",
-                        name});
+    problems.push_back(
+        {ProblemKind::conflict, "name-taken", place(i) + "/name",
+         taken ? "an arm holds " + name + ": let a job detach it first, or give another name"
+               : "objects " + std::to_string(known->second) + " and " + std::to_string(i) +
+                     " are both named " + name + ": give each object its own name",
+         name});
   }
 }
 

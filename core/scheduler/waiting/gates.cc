@@ -122,6 +122,11 @@ Closed signal(const Look& look, const Step& step) {
   return FoundWaits(std::move(*wait));
 }
 
+Closed actions(const Look&, const Step& step) {
+  if (!step.job->awaits_actions) return std::nullopt;
+  return FoundWaits(Wait{.kind = Wait::Kind::action});
+}
+
 Closed place(const Look& look, const Step& step) {
   const auto taken_by = place_taken_by(look.state, step);
   if (!taken_by) return std::nullopt;
@@ -190,8 +195,8 @@ Closed aging(const Look& look, const Step& step) {
   return FoundWaits(step.judgement().found);  // the older one may be about to go
 }
 
-// In the order in which they are checked. Four have no edges: the planner answers; an operator or
-// a signal acts; nobody younger holds back an aged job or the jobs that must precede it.
+// In the order in which they are checked. Five have no edges: the planner answers; an operator, a
+// signal or a task acts; nobody younger holds back an aged job or the jobs that must precede it.
 constexpr Gate kGates[] = {
     // another job of its arm precedes it; edges: add_behind(), queue by queue
     {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
@@ -207,6 +212,8 @@ constexpr Gate kGates[] = {
     {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
     // a signal does not have the value at which the job starts
     {signal, nullptr, EndedBy::client, Blocks::start},
+    // actions of its task before it are not done
+    {actions, nullptr, EndedBy::client, Blocks::start},
     // the policy allows no further job at the same time
     {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},
     // checked and not admitted; put_off() starts its age
@@ -246,6 +253,17 @@ bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&
   const Look look{.state = state, .tells = false};
   return std::ranges::any_of(
       kGates, [&](const Gate& gate) { return counts(gate) && gate.closed(look, step); });
+}
+
+bool lacks_only_actions(const State& state, const Step& step) {
+  const auto others = [](const Gate& gate) { return blocks_start(gate) && gate.closed != actions; };
+  return step.job->awaits_actions && !any_closed(state, step, others);
+}
+
+bool awaits_signal_or_actions(const State& state, const Step& step) {
+  return any_closed(state, step, [](const Gate& gate) {
+    return gate.closed == signal || gate.closed == actions;
+  });
 }
 
 bool is_at_head(const State& state, const Step& step) {

@@ -43,7 +43,7 @@ enum class EndedBy {
   job,     // another job, by moving or ending
   choice,  // the choice of another job's arm, for which no job needs to move
   planner,
-  client,  // an operator, or a signal
+  client,  // an operator, a signal, or an action of its task
 };
 // A blocking condition: a row of the table in gates.cc. All who ask for conditions read this table.
 struct Gate {
@@ -75,6 +75,10 @@ struct ClosedGate {
 // Returns true if such a condition is closed. Faster than first_closed().
 [[nodiscard]] bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&));
 
+// Returns true if the job waits for the actions of its task, and could start if they were done.
+[[nodiscard]] bool lacks_only_actions(const State& state, const Step& step);
+// Returns true if the job waits for a signal, or for the actions of its task.
+[[nodiscard]] bool awaits_signal_or_actions(const State& state, const Step& step);
 // Returns true if the job waits for no other job before its start.
 [[nodiscard]] bool is_at_head(const State& state, const Step& step);
 // Returns true if the job cannot move before other jobs have moved.

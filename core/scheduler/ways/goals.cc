@@ -46,6 +46,7 @@ bool is_found_in_the_way(const State& state, const Step& step, ArmId arm) {
 // Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
 // may yet go by another arm counts as if it did.
 std::optional<Configuration> at_its_turn(const State& state, const Step& step, const GoalWay& way) {
+  if (step.job->awaits_actions) return std::nullopt;  // they change what the arm holds
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
   const auto& queue = state.jobs.queues()[arm];

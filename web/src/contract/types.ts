@@ -155,6 +155,10 @@ export interface components {
             retimed?: boolean;
             /** @description true while the job brakes on its path */
             stopping: boolean;
+            /** @description Only of a job with steps */
+            steps?: components["schemas"]["Step"][];
+            /** @description Only of a job with steps: index of the present step */
+            step?: number;
             /** @description Reasons to wait; empty if the job does not wait */
             waits_on: components["schemas"]["Wait"][];
             /** @description Candidate arms; `arms` has the selected arm, or the most likely one while the job waits */
@@ -207,6 +211,8 @@ export interface components {
             result: {
                 reason: components["schemas"]["Reason"];
                 detail: string;
+                /** @description Of a job with steps that did not succeed: index of the step at which it ended */
+                step?: number;
             } | null;
             /** @description Only in the answer to PATCH: why the change has no effect at present */
             notice?: string;
@@ -301,6 +307,8 @@ export interface components {
             result?: {
                 reason: components["schemas"]["Reason"];
                 detail: string;
+                /** @description Of a job with steps that did not succeed: index of the step at which it ended */
+                step?: number;
             };
         };
         /** @description The motion of a job. */
@@ -746,10 +754,25 @@ export interface components {
          * @enum {string}
          */
         JobState: "queued" | "backlogged" | "scheduled" | "running" | "paused" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
+        /** @description A step of a job. */
+        Step: {
+            /** @description Display name; may be empty */
+            name: string;
+            /** @description The member that names the step: trajectory, move_to, gripper, attach, detach, wait_s, set_io or wait_io */
+            kind: string;
+            /** @enum {string} */
+            state: "waiting" | "running" | "done" | "failed";
+            /** @description What the step does; may be empty */
+            detail: string;
+            /** @description Arms that a motion moves */
+            arms: string[];
+            /** @description Progress of a motion */
+            progress: number;
+        };
         /** @description A reason to wait, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed" | "io";
+            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed" | "io" | "action";
             /** @description Id of the other job; for kind io the name of the signal */
             id: string | null;
             /** @description Name of the other arm */
@@ -771,7 +794,7 @@ export interface components {
          * @description Why a job ended. core/scheduler/README.md explains each reason.
          * @enum {string}
          */
-        Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock" | "no_plan";
+        Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock" | "step_failed" | "no_plan";
         DiagramSide: {
             id: components["schemas"]["JobId"];
             state: components["schemas"]["JobState"];
@@ -965,6 +988,8 @@ export interface components {
             /** @description Version of the scene; grows with every change */
             version: number;
             objects: components["schemas"]["Object"][];
+            /** @description Objects that arms hold; they are not in `objects` */
+            held: components["schemas"]["HeldObject"][];
         };
         /** @description An input or output of the cell. */
         Signal: {
@@ -1120,6 +1145,15 @@ export interface components {
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
+        /** @description An object that an arm holds. */
+        HeldObject: {
+            /** @description The object, with its pose in the frame of `link` */
+            object: components["schemas"]["Object"];
+            /** @description Link that carries the object */
+            link: string;
+            /** @description Arm that moves the link */
+            arm: string;
+        };
         /** @description A rectangle of two motions. Times are trajectory time. */
         ProgressBox: {
             /** @description Interval of the arm's own motion */

@@ -1,0 +1,325 @@
+#include "core/executive/task_intake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/base/add_below.h"
+#include "core/executive/gripper_goal.h"
+#include "core/executive/job_intake.h"
+#include "core/executive/signals.h"
+#include "core/planning/plan_goal.h"
+#include "core/trajectory/implicit_start.h"
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+std::string place_of(std::size_t i) { return "/steps/" + std::to_string(i); }
+
+// Checks the steps in their order.
+class StepCheck {
+ public:
+  StepCheck(const Cell& cell, const std::vector<StepRequest>& steps, const PresentObjects& present,
+            Problems& problems)
+      : cell_(cell),
+        steps_(steps),
+        known_(present.in_scene.begin(), present.in_scene.end()),
+        holder_(present.carried),
+        problems_(problems) {
+    for (const auto& [object, link] : holder_) known_.insert(object);
+  }
+
+  void check() {
+    for (at_ = 0; at_ < steps_.size(); ++at_) {
+      std::visit([this](const auto& what) { look(what); }, steps_[at_].what);
+    }
+    if (std::ranges::none_of(steps_, &StepRequest::is_motion)) {
+      problems_.push_back({ProblemKind::invalid,
+                           "no-motion",
+                           "/steps",
+                           "no step moves an arm: add a motion, or set outputs with PUT /io/{name}",
+                           {}});
+    }
+    const auto& last = steps_.back().what;
+    if (std::holds_alternative<WaitRequest>(last) || std::holds_alternative<WaitIoRequest>(last)) {
+      problems_.push_back(
+          {ProblemKind::invalid,
+           "ends-with-wait",
+           place_of(steps_.size() - 1),
+           "no step comes after this wait: leave it out, or add the step that waits",
+           {}});
+    }
+  }
+
+ private:
+  void add(const char* slug, const std::string& member, std::string detail,
+           const std::string& value) {
+    problems_.push_back(
+        {ProblemKind::invalid, slug, place_of(at_) + member, std::move(detail), value});
+  }
+
+  void look(const MotionStepRequest& motion) {
+    for (std::size_t t = 0; t < motion.triggers.size(); ++t) {
+      const TriggerRequest& trigger = motion.triggers[t];
+      const std::string place = "/triggers/" + std::to_string(t) + "/set_io";
+      look_at_output(trigger.signal, trigger.value, place);
+    }
+  }
+  void look(const GripperStepRequest& gripper) {
+    if (auto found = joints_at_width(cell_, gripper); !found) {
+      for (Problem& problem : found.error()) {
+        problem.pointer = place_of(at_) + problem.pointer;
+        problems_.push_back(std::move(problem));
+      }
+    }
+  }
+  void look(const AttachRequest& attach) {
+    look_at_object(attach.object, "/attach/object");
+    look_at_touch(attach.touch, "/attach/touch");
+    const auto link = cell_.find_link(attach.link);
+    if (!link) {
+      add("unknown-link", "/attach/link",
+          "the cell has no link \"" + attach.link +
+              "\": GET /cell lists the links, with the prefix "
+              "of their robot",
+          attach.link);
+    } else if (!cell_.link(*link).arm) {
+      add("link-not-of-arm", "/attach/link",
+          "no arm moves link " + attach.link +
+              ", so it cannot carry an object: name a link of a "
+              "hand",
+          attach.link);
+    } else {
+      const auto held = holder_.find(attach.object);
+      if (held != holder_.end() && held->second == attach.link) {
+        add("held-twice", "/attach/object",
+            attach.link + " holds " + attach.object + " already: detach it before", attach.object);
+      }
+      holder_[attach.object] = attach.link;
+      look_for_motion_of(*cell_.link(*link).arm, "/attach/link", attach.link);
+    }
+  }
+  void look(const DetachRequest& detach) {
+    look_at_object(detach.object, "/detach/object");
+    look_at_touch(detach.touch, "/detach/touch");
+    const auto by = holder_.find(detach.object);
+    if (by != holder_.end()) {
+      const auto link = cell_.find_link(by->second);
+      if (link) look_for_motion_of(*cell_.link(*link).arm, "/detach/object", detach.object);
+      holder_.erase(by);
+    } else if (known_.contains(detach.object)) {
+      add("not-held", "/detach/object",
+          "no arm holds " + detach.object + " then: attach it in a step before", detach.object);
+    }
+  }
+  void look(const WaitRequest&) {}
+  void look(const SetIoRequest& io) { look_at_output(io.signal, io.value, "/set_io"); }
+  void look(const WaitIoRequest& io) { look_at_value(io.signal, io.value, "/wait_io"); }
+
+  void look_at_object(const std::string& object, const char* member) {
+    if (known_.contains(object)) return;
+    add("unknown-object", member,
+        "no object is named \"" + object +
+            "\": add it first with PUT /scene/objects/{name}; GET "
+            "/scene lists the objects",
+        object);
+  }
+  void look_at_touch(const std::vector<std::string>& names, const char* member) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (cell_.find_link(names[i]) || known_.contains(names[i])) continue;
+      add("unknown-name", std::string(member) + "/" + std::to_string(i),
+          "neither a link nor an object is named \"" + names[i] + "\"", names[i]);
+    }
+  }
+  void look_at_value(const std::string& signal, const SignalValue& value, const std::string& at) {
+    const std::string place = place_of(at_) + at;
+    auto bad = find_bad_value(cell_.io, signal, value, ProblemKind::invalid, place + "/name",
+                              place + "/value");
+    if (bad) problems_.push_back(*std::move(bad));
+  }
+  void look_at_output(const std::string& signal, const SignalValue& value, const std::string& at) {
+    look_at_value(signal, value, at);
+    const auto id = cell_.io.find_signal(signal);
+    if (!id) return;
+    const SignalDescription& known = cell_.io.signal(*id);
+    if (known.direction == SignalDirection::output || !known.place) return;
+    add("input-of-device", at + "/name",
+        signal + " is an input of a device: only outputs and simulated inputs can be set", signal);
+  }
+  // The arm must stay with the task: others could move it otherwise, before the action is done.
+  void look_for_motion_of(ArmId arm, const char* member, const std::string& value) {
+    const std::string& name = cell_.arm(arm).name;
+    const auto moves = [&](const StepRequest& step) {
+      if (const auto* gripper = std::get_if<GripperStepRequest>(&step.what)) {
+        return gripper->arm == name;
+      }
+      const auto* motion = std::get_if<MotionStepRequest>(&step.what);
+      if (motion == nullptr) return false;
+      if (motion->move_to || !motion->arm.empty()) return motion->arm == name;
+      return std::ranges::count(arms_of(motion->trajectory, cell_), arm) > 0;
+    };
+    const auto after = steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1;
+    if (std::any_of(after, steps_.end(), moves)) return;
+    add("no-motion-after", member,
+        "no step after this one moves " + name + ": add the motion by which it leaves", value);
+  }
+
+  const Cell& cell_;
+  const std::vector<StepRequest>& steps_;
+  std::set<std::string> known_;
+  std::map<std::string, std::string> holder_;  // link, by object
+  Problems& problems_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+void find_bad_steps(const Cell& cell, const std::vector<StepRequest>& steps,
+                    const PresentObjects& present, Problems& problems) {
+  StepCheck(cell, steps, present, problems).check();
+}
+
+Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
+                                                      const GripperStepRequest& gripper) {
+  const auto id = cell.find_arm(gripper.arm);
+  if (!id) {
+    return failure(Problem{ProblemKind::invalid, "unknown-arm", "/gripper/arm",
+                           "the cell has no arm \"" + gripper.arm + "\"", gripper.arm});
+  }
+  const Arm& arm = cell.arm(*id);
+  double per_joint = 0.0, offset = 0.0;
+  bool turns = false;
+  for (const Link& link : cell.links) {
+    if (!link.driver || std::ranges::count(arm.gripper_joints, *link.driver) == 0) continue;
+    turns = turns || link.motion != JointKind::prismatic;
+    per_joint += std::abs(link.multiplier);
+    offset += link.offset;
+  }
+  if (turns || per_joint == 0.0) {
+    return failure(Problem{
+        ProblemKind::invalid, "no-width", "/gripper/width_m",
+        "arm " + arm.name + (turns ? " has a gripper whose fingers turn" : " has no gripper") +
+            ": move gripper joints by \"move_to\": {\"joints\": {NAME: position}}",
+        gripper.width_m});
+  }
+  const double position = (gripper.width_m - offset) / per_joint;
+  std::map<std::string, double> positions;
+  for (const JointId joint : arm.gripper_joints) {
+    const Joint& known = cell.joint(joint);
+    if (!is_within_limits(known, position)) {
+      char text[160];
+      std::snprintf(text, sizeof text, "a width of %.6g m is outside %.6g to %.6g m",
+                    gripper.width_m, known.lower * per_joint + offset,
+                    known.upper * per_joint + offset);
+      return failure(Problem{ProblemKind::invalid, "limit-exceeded", "/gripper/width_m", text,
+                             gripper.width_m});
+    }
+    positions[known.name] = position;
+  }
+  return positions;
+}
+
+PresentObjects JobIntake::present_objects() const {
+  PresentObjects present;
+  const PlanningScenePtr now = scene_();
+  const PlanningScene& scene = *now;
+  for (const CollisionObject& object : scene.objects()) {
+    present.in_scene.push_back(object.name);
+    if (const auto link = tasks_.will_attach(object.name)) present.carried[object.name] = *link;
+  }
+  for (const Attachment& held : scene.attachments()) {
+    const auto link = tasks_.will_attach(held.object.name);
+    present.carried[held.object.name] = link.value_or(cell_->link(held.link).name);
+  }
+  return present;
+}
+
+std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& request,
+                                                             Ahead& ahead,
+                                                             Problems& problems) const {
+  if (request.terms.reorderable) {
+    problems.push_back({ProblemKind::invalid, "not-served", "/reorderable",
+                        "a job with steps cannot be reordered: leave out \"reorderable\"", "true"});
+  }
+  find_bad_steps(*cell_, request.steps, present_objects(), problems);
+  if (!problems.empty()) return {};
+  std::map<std::string, LinkId> carried;
+  const PlanningScenePtr now = scene_();
+  for (const Attachment& held : now->attachments()) {
+    carried.emplace(held.object.name, held.link);
+  }
+  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, std::move(carried));
+  std::vector<PreparedJob::PreparedStep> steps;
+  bool acts_before = false, is_first = true;
+  const TouchOf* before = nullptr;
+  for (std::size_t i = 0; i < request.steps.size(); ++i) {
+    const StepRequest& asked = request.steps[i];
+    PreparedJob::PreparedStep& step = steps.emplace_back();
+    step.step.request = asked;
+    if (!asked.is_motion()) {
+      acts_before = true;
+      continue;
+    }
+    Problems found;
+    step.motion = read_step(asked, request, is_first, ahead, found);
+    add_below(place_of(i), std::move(found), problems);
+    if (!problems.empty()) return {};
+    const bool is_gripper = std::holds_alternative<GripperStepRequest>(asked.what);
+    const bool changes = before == nullptr ? !touch[i].empty() : touch[i] != *before;
+    step.step.is_awaited = acts_before || is_gripper || changes;
+    step.step.touch = touch[i];
+    before = &touch[i];
+    acts_before = is_first = false;
+  }
+  return steps;
+}
+
+PreparedMotion JobIntake::read_step(const StepRequest& asked, const JobRequest& request,
+                                    bool is_first, Ahead& ahead, Problems& problems) const {
+  if (const auto* gripper = std::get_if<GripperStepRequest>(&asked.what)) {
+    auto motion = gripper_motion(*gripper, *cell_, ahead.rest);
+    if (!motion) {
+      problems = std::move(motion.error());
+      return {};
+    }
+    set_joints(ahead.rest, **motion, (*motion)->goal());
+    return {{*std::move(motion)}, {}};
+  }
+  const auto& motion = std::get<MotionStepRequest>(asked.what);
+  JobRequest alone;
+  alone.trajectory = motion.trajectory;
+  alone.move_to = motion.move_to;
+  alone.arm = motion.arm.empty() && motion.move_to ? request.arm : motion.arm;
+  alone.speed = motion.speed ? motion.speed : request.speed;
+  if (is_first) alone.terms.move_to_start = request.terms.move_to_start;
+  if (motion.move_to) alone.terms.move_to_start = MoveToStart::none;
+  return read_motion(alone, ahead, problems);
+}
+
+Result<TrajectoryPtr> gripper_motion(const GripperStepRequest& gripper, const Cell& cell,
+                                     const Configuration& rest) {
+  auto positions = joints_at_width(cell, gripper);
+  if (!positions) return failure(std::move(positions.error()));
+  JobRequest request;
+  request.arm = gripper.arm;
+  request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = {}, .gripper = *positions};
+  return gripper_motion(request, cell, rest);
+}
+
+std::optional<Problem> find_unchecked_steps(const JobRequest& request) {
+  if (request.steps.empty()) return std::nullopt;
+  return Problem{ProblemKind::unsupported,
+                 "not-served",
+                 "/steps",
+                 "a job with steps cannot be checked without running it, because its steps change "
+                 "the scene: check each motion as a job of its own, or run the job with armloom "
+                 "simulate",
+                 {}};
+}
+
+}  // namespace armloom

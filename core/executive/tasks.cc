@@ -1,0 +1,376 @@
+// Jobs with several steps: which step is next, and what its actions do. Motions are jobs of the
+// scheduler.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+#include "core/executive/task_intake.h"
+#include "core/executive/task_view.h"
+#include "core/jobs/waits.h"
+
+namespace armloom {
+namespace {
+
+std::string step_text(const Task& task) {
+  std::string text = "step " + std::to_string(task.at);
+  const TaskStep& step = task.steps[task.at];
+  if (!step.request.name.empty()) text += " (" + step.request.name + ")";
+  return text + ": ";
+}
+
+std::string text_of(const Problems& problems) {
+  const Problem& first = problems.front();
+  return first.detail;
+}
+
+// The way in which a motion ended that did not succeed.
+TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePoint now) {
+  std::string detail = view.detail();
+  if (!detail.empty()) detail = step_text(task) + detail;
+  return {motion.state(), motion.reason().value_or(Reason::step_failed), std::move(detail), now};
+}
+
+}  // namespace
+
+JobView Executive::Impl::accept_task(PreparedJob prepared) {
+  const JobId id = scheduler_.next_job();
+  JobLabel label{prepared.key, prepared.name};
+  if (label.key.empty()) label.key = jobs_.free_key(id);
+  enter_task(std::move(prepared), id, std::move(label), false);
+  return publisher_.view(id);
+}
+
+void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
+                                 bool is_held_over) {
+  label.bytes = prepared.bytes();
+  jobs_.add(id, std::move(label));
+  Task made{.id = id, .steps = {}};
+  for (const auto& step : prepared.steps) made.steps.push_back(step.step);
+  Task& task = tasks_.add(std::move(made));
+  std::optional<JobId> before;
+  const bool was_busy = std::exchange(tasks_are_busy_, true);
+  for (std::size_t i = 0; i < prepared.steps.size() && !task.end; ++i) {
+    if (!prepared.steps[i].motion) continue;
+    Submit submitted = intake_.submission(prepared, std::move(*prepared.steps[i].motion), before);
+    submitted.job = before ? scheduler_.next_job() : id;
+    submitted.task = id;
+    submitted.awaits_actions = task.steps[i].is_awaited;
+    submitted.is_held_over = is_held_over;
+    submitted.start_is_recorded = !before && execution_.starts().has_log();
+    tasks_.set_motion(task, i, submitted.job);
+    before = submitted.job;
+    step(submitted);
+  }
+  tasks_are_busy_ = was_busy;
+  go_on_with_tasks();
+}
+
+// Goes on with each task that has its turn: the first of the queue of an arm, or one whose last
+// motion has ended.
+void Executive::Impl::go_on_with_tasks() {
+  if (tasks_.empty() || tasks_are_busy_) return;
+  tasks_are_busy_ = true;
+  std::set<JobId> told;
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<JobId> all(tasks_at_end_.begin(), tasks_at_end_.end());
+    for (const ArmId arm : all_arms(*cell_)) {
+      if (const auto head = scheduler_.head(arm)) all.push_back(*head);
+    }
+    for (const JobId job : all) {
+      // A task that has ended may be forgotten at once.
+      for (Task* task = tasks_.find(job); task != nullptr && go_on(*task);
+           task = tasks_.find(job)) {
+        again = told.insert(tasks_.told(job)).second || again;
+      }
+    }
+  }
+  tasks_are_busy_ = false;
+  for (const JobId id : told) {
+    const Task* task = tasks_.find(id);
+    if (task != nullptr && !task->end) tell_task(id);
+  }
+}
+
+// Returns true if the task has advanced.
+bool Executive::Impl::go_on(Task& task) {
+  if (task.end) return false;
+  if (task.at == task.steps.size()) {
+    end_task(task, {JobState::succeeded, Reason::completed, "", clock_.now});
+    return true;
+  }
+  TaskStep& present = task.steps[task.at];
+  if (present.job) return go_on_with_motion(task, present);
+  const auto next = task.next_motion();
+  if (next && !scheduler_.has_turn_for_actions(*next)) return false;
+  if (!next && any_stopped(task)) return false;
+  if (!is_recorded(task)) return false;
+  if (!task.began_at) task.began_at = clock_.now;
+  const std::vector<Wait> waited = std::exchange(task.waits_on, {});
+  if (!task.since) task.since = clock_.now;
+  const auto done = act(task, present.request);
+  if (!done) {
+    fail_task(task, Reason::step_failed, step_text(task) + text_of(done.error()));
+    return true;
+  }
+  if (!*done) {
+    const bool is_news = task.waits_on.size() != waited.size() ||
+                         (!waited.empty() && !task.waits_on.front().same_cause(waited.front()));
+    if (is_news) tell_task(task.id);
+    return false;
+  }
+  task.since.reset();
+  ++task.at;
+  return true;
+}
+
+bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
+  const Step& motion = *scheduler_.find(*present.job);
+  if (motion.has_ended()) {
+    if (motion.state() == JobState::succeeded) {
+      ++task.at;
+      return true;
+    }
+    end_task(task, end_of(task, motion, view_of(motion, *cell_, jobs_), clock_.now));
+    return true;
+  }
+  if (!present.is_awaited) return false;
+  if (!scheduler_.has_turn_for_actions(*present.job) || !is_recorded(task)) return false;
+  TrajectoryPtr way;
+  if (const auto* gripper = std::get_if<GripperStepRequest>(&present.request.what)) {
+    auto made = gripper_motion(*gripper, *cell_, scheduler_.rest());
+    if (!made) {
+      fail_task(task, Reason::step_failed, step_text(task) + text_of(made.error()));
+      return true;
+    }
+    way = *std::move(made);
+  }
+  set_touch(task, present.touch);
+  present.is_awaited = false;
+  step(ActionsDone{*present.job, std::move(way)});
+  return true;
+}
+
+// Does the action. Returns false if it is not done yet.
+Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
+  if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
+    if (!has_arm_of(task, *cell_->find_link(attach->link))) return false;
+    auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object,
+                            *cell_->find_link(attach->link), touch_of(*cell_, attach->touch));
+    if (!content) return failure(std::move(content.error()));
+    return changed_holding(std::move(*content));
+  }
+  if (const auto* detach = std::get_if<DetachRequest>(&request.what)) {
+    const auto carrier = carrier_of(*scene_.scene(), detach->object);
+    if (carrier && !has_arm_of(task, *carrier)) return false;
+    auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object);
+    if (!content) return failure(std::move(content.error()));
+    return changed_holding(std::move(*content));
+  }
+  if (const auto* wait = std::get_if<WaitRequest>(&request.what)) {
+    const TimePoint until = *task.since + wait->time;
+    if (clock_.now >= until) return true;
+    wake_at(until);
+    task.waits_on = {{.kind = Wait::Kind::action, .detail = "waits " + armloom::text_of(request)}};
+    return false;
+  }
+  if (const auto* io = std::get_if<SetIoRequest>(&request.what)) {
+    return set_output(task, io->signal, io->value);
+  }
+  const auto& io = std::get<WaitIoRequest>(request.what);
+  const SignalView& signal = signals_.views()[cell_->io.find_signal(io.signal)->index()];
+  if (signal.value == io.value) return true;
+  const std::string now = signal.value ? text_of(*signal.value) : "not known: " + signal.detail;
+  if (io.timeout) {
+    const TimePoint until = *task.since + *io.timeout;
+    if (clock_.now >= until) {
+      return failure(Problem{ProblemKind::conflict, "timeout", "/wait_io/timeout_s",
+                             io.signal + " was not " + text_of(io.value) + " within " +
+                                 seconds_text(*io.timeout) + "; it is " + now,
+                             now});
+    }
+    wake_at(until);
+  }
+  task.waits_on = {
+      {.kind = Wait::Kind::io,
+       .detail = io.signal + " is " + now + "; the step waits for " + text_of(io.value),
+       .signal = io.signal}};
+  return false;
+}
+
+// Returns true if no other job moves the arm of the link. Otherwise the task waits for that.
+bool Executive::Impl::has_arm_of(Task& task, LinkId link) {
+  const ArmId arm = *cell_->link(link).arm;
+  const auto head = scheduler_.head(arm);
+  const bool is_own = head && tasks_.told(*head) == task.id;
+  if (is_own && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;
+  task.waits_on = {
+      {.kind = Wait::Kind::action,
+       .arm = arm,
+       .detail = cell_->arm(arm).name +
+                 (scheduler_.stopped(arm) ? " is stopped" : " has another job first")}};
+  return false;
+}
+
+// An output is set when its device has reported the value. While there is no connection, the step
+// waits.
+bool Executive::Impl::set_output(Task& task, const std::string& name, const SignalValue& value) {
+  const SignalView& signal = signals_.views()[cell_->io.find_signal(name)->index()];
+  if (signal.is_connected && signal.value == value && !signal.commanded) return true;
+  if (signal.is_connected && signal.commanded != value) (void)signals_.command(name, value);
+  if (signal.value == value && !signal.commanded) return true;
+  const std::string why = signal.is_connected ? "has not reported the value yet" : signal.detail;
+  task.waits_on = {{.kind = Wait::Kind::io,
+                    .detail = "output " + name + ": device " + signal.device + ": " + why,
+                    .signal = name}};
+  return false;
+}
+
+Result<bool> Executive::Impl::changed_holding(PlanningScene::Content content) {
+  if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
+  return true;
+}
+
+// An allowance stays between two motions, because the hand stays at the object.
+void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
+  const TouchOf before = std::exchange(task.touch, next);
+  for (const auto& [object, touch] : before) {
+    if (!next.contains(object)) change_touch(object, {});
+  }
+  for (const auto& [object, touch] : next) {
+    const auto same = before.find(object);
+    if (same == before.end() || same->second != touch) change_touch(object, touch);
+  }
+}
+
+// The task has failed or was canceled: its hand may be at the object. The allowance ends with the
+// next motion that succeeds on one of the task's arms.
+void Executive::Impl::leave_touch(Task& task) {
+  std::vector<ArmId> arms;
+  for (const JobId motion : task.motions()) {
+    const auto& moved = scheduler_.find(motion)->trajectory->arms();
+    arms.insert(arms.end(), moved.begin(), moved.end());
+  }
+  for (const auto& [object, touch] : std::exchange(task.touch, {})) touch_left_[object] = arms;
+}
+
+void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
+  for (auto left = touch_left_.begin(); left != touch_left_.end();) {
+    if (std::ranges::find_first_of(left->second, arms) == left->second.end()) {
+      ++left;
+      continue;
+    }
+    const std::string object = left->first;
+    left = touch_left_.erase(left);
+    change_touch(object, {});
+  }
+}
+
+void Executive::Impl::change_touch(const std::string& object, const Touch& touch) {
+  (void)scene_.change(touching(*scene_.scene(), object, touch));  // names and links are known
+}
+
+// Fires the triggers of motions that have come so far.
+void Executive::Impl::fire_triggers(const MotionReport& report) {
+  Task* task = tasks_.find(report.step.job);
+  if (task == nullptr || task->end) return;
+  for (TaskStep& step : task->steps) {
+    const auto* motion = std::get_if<MotionStepRequest>(&step.request.what);
+    if (step.job != report.step.job || motion == nullptr) continue;
+    const double duration_s = to_seconds(scheduler_.find(*step.job)->trajectory->duration());
+    while (step.triggers_fired < motion->triggers.size()) {
+      const TriggerRequest& next = motion->triggers[step.triggers_fired];
+      if (to_seconds(report.progress) < next.at * duration_s) break;
+      ++step.triggers_fired;
+      if (!signals_.command(next.signal, next.value)) {
+        publisher_.tell(
+            Alert{Alert::Level::error, "job " + jobs_.key(task->id) + ": trigger at " +
+                                           std::to_string(next.at) + ": output " + next.signal +
+                                           " is not connected, and was not set"},
+            clock_.now);
+      }
+    }
+  }
+}
+
+// ---- Ends ----
+
+// The task has ended. Its motions that have not begun end with it.
+void Executive::Impl::end_task(Task& task, TaskEnd end) {
+  if (task.end) return;
+  task.end = std::move(end);
+  task.waits_on.clear();
+  tasks_at_end_.erase(task.id);
+  if (const auto next = task.next_motion()) {
+    const Step* step = scheduler_.find(*next);
+    if (step != nullptr && !step->has_ended()) this->step(Cancel{*next});
+  }
+  if (task.end->state == JobState::succeeded) {
+    set_touch(task, {});
+  } else {
+    leave_touch(task);
+  }
+  count_.end_of_a_job(clock_.now);
+  tell_task(task.id);
+  forget_oldest(task.id);
+}
+
+void Executive::Impl::fail_task(Task& task, Reason reason, std::string detail) {
+  end_task(task, {JobState::failed, reason, std::move(detail), clock_.now});
+}
+
+void Executive::Impl::cancel_task(Task& task) {
+  const auto next = task.next_motion();
+  const Step* motion = next ? scheduler_.find(*next) : nullptr;
+  const bool is_moving = motion != nullptr && motion->has_authority();
+  if (is_moving) return step(Cancel{*next});  // it ends when its arm rests
+  end_task(task, {JobState::canceled, Reason::canceled_by_client,
+                  task.began_at ? "canceled between its motions" : "canceled before it moved",
+                  clock_.now});
+}
+
+void Executive::Impl::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
+
+// A motion of a task has changed.
+void Executive::Impl::motion_changed(Task& task, JobId motion) {
+  const Step& step = *scheduler_.find(motion);
+  if (step.times.started_at && !task.began_at) task.began_at = step.times.started_at;
+  if (task.end) return;
+  if (step.has_ended() && motion == task.motions().back()) tasks_at_end_.insert(task.id);
+  if (step.has_ended()) return;  // go_on_with_tasks() sees it
+  if (task.next_motion() == motion) tell_task(task.id);
+}
+
+bool Executive::Impl::any_stopped(const Task& task) const {
+  const auto& arms = scheduler_.find(task.motions().back())->trajectory->arms();
+  return std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stopped(arm); });
+}
+
+// The first action is done only when it is on disk that the task has begun: after a restart,
+// nothing is done twice.
+bool Executive::Impl::is_recorded(const Task& task) {
+  if (task.began_at) return true;
+  const auto written = [this](JobId id) {
+    note({ExecutiveInput::StartWritten{only_step(id)}});
+    step(StartRecorded{only_step(id)});
+    go_on_with_tasks();
+  };
+  return execution_.record_start(task.id, written);
+}
+
+void Executive::Impl::wake_at(TimePoint when) { task_wakes_at_ = std::min(task_wakes_at_, when); }
+
+// A task that has begun is interrupted at its present step, even if the next motion has not begun.
+void Executive::Impl::interrupt(bool keeps_waiting) {
+  const bool was_busy = std::exchange(tasks_are_busy_, true);
+  for (Task* task : tasks_.begun()) {
+    TaskEnd end{JobState::interrupted, Reason::server_restart,
+                step_text(*task) + "the server ended while the job was under way", clock_.now};
+    end_task(*task, std::move(end));
+  }
+  step(Interrupt{keeps_waiting});
+  tasks_are_busy_ = was_busy;
+}
+
+}  // namespace armloom
