@@ -203,8 +203,8 @@ struct QueueView {
 // An object that an arm holds. Its X_WO is the pose in the frame of the link.
 struct HeldView {
   CollisionObject object;
-  std::string link;
-  std::string arm;
+  std::string link = {};
+  std::string arm = {};
 };
 // The objects of the planning scene; `version` grows with every change.
 struct SceneView {

@@ -96,6 +96,10 @@ class StartLog {
   // Called once per client job, before its first motion. The job's arms do not move until the log
   // calls `written`, on the strand.
   virtual void about_to_move(JobId job, std::function<void()> written) = 0;
+  // Called after a step of the job has attached or detached an object (HeldView::link is empty if
+  // the object is in the scene). The job's next step waits until the log calls `written`, on the
+  // strand.
+  virtual void has_moved(JobId job, const HeldView& object, std::function<void()> written) = 0;
 };
 
 // Records every external input (executive_input.h) before it takes effect. `ticks`: number of

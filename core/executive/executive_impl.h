@@ -106,7 +106,8 @@ class Executive::Impl {
   Result<bool> act(Task& task, const StepRequest& request);
   bool has_arm_of(Task& task, LinkId link);
   bool set_output(Task& task, const std::string& name, const SignalValue& value);
-  Result<bool> changed_holding(PlanningScene::Content content);
+  Result<bool> changed_holding(Task& task, const std::string& object,
+                               PlanningScene::Content content);
   void set_touch(Task& task, const TouchOf& next);
   void leave_touch(Task& task);
   void clear_left_touch(const std::vector<ArmId>& arms);

@@ -82,6 +82,7 @@ struct ExecutiveInput {
   using ObjectReplaced = armloom::ObjectReplaced;
   using ObjectRemoved = armloom::ObjectRemoved;
   using ObjectsSet = armloom::ObjectsSet;
+  using ObjectHeld = HeldView;  // by an arm, when the server starts
   struct Injected {
     FaultRequest fault;
   };
@@ -130,9 +131,9 @@ struct ExecutiveInput {
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
-               ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, Injected, FaultRemoved,
-               Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected, SignalSet,
-               IoReported>
+               ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, ObjectHeld, Injected,
+               FaultRemoved, Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected,
+               SignalSet, IoReported>
       what;
 };
 

@@ -141,4 +141,25 @@ Content touching(const PlanningScene& scene, const std::string& object, Touch to
   return content;
 }
 
+HeldView place_of(const PlanningScene& scene, const std::string& object) {
+  const auto held = std::ranges::find_if(scene.attachments(), carries(object));
+  if (held == scene.attachments().end()) {
+    return {*std::ranges::find(scene.objects(), object, &CollisionObject::name)};
+  }
+  const Link& link = scene.cell().link(held->link);
+  return {{held->object.name, held->object.shape, held->X_LO},
+          link.name,
+          scene.cell().arm(*link.arm).name};
+}
+
+Content holding(const PlanningScene& scene, CollisionObject object, LinkId link) {
+  Content content = content_of(scene);
+  std::erase_if(content.objects, [&](const CollisionObject& o) { return o.name == object.name; });
+  std::erase_if(*content.attachments, carries(object.name));
+  const Eigen::Isometry3d X_LO = object.X_WO;
+  content.attachments->push_back(
+      {.object = std::move(object), .link = link, .X_LO = X_LO, .touch = {}});
+  return content;
+}
+
 }  // namespace armloom

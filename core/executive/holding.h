@@ -6,6 +6,7 @@
 
 #include "core/base/problem.h"
 #include "core/collision/scene/planning_scene.h"
+#include "core/executive/events.h"
 #include "core/model/cell.h"
 
 namespace armloom {
@@ -41,6 +42,12 @@ struct Touch {
 // The object, carried or not, may touch only this. Ignores an unknown object.
 [[nodiscard]] PlanningScene::Content touching(const PlanningScene& scene, const std::string& object,
                                               Touch touch);
+
+// Returns the object's place. Precondition: the object is in the scene, or carried.
+[[nodiscard]] HeldView place_of(const PlanningScene& scene, const std::string& object);
+// Returns the content in which this link carries the object, with its pose in the link's frame.
+[[nodiscard]] PlanningScene::Content holding(const PlanningScene& scene, CollisionObject object,
+                                             LinkId link);
 
 // Returns the link that carries the object; nullopt if none does.
 [[nodiscard]] std::optional<LinkId> carrier_of(const PlanningScene& scene,

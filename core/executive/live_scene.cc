@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/executive/executive_input.h"
+#include "core/executive/holding.h"
 #include "core/executive/state_watch.h"
 
 namespace armloom {
@@ -234,6 +235,16 @@ Result<void> LiveScene::change(PlanningScene::Content content) {
   ++now_.version;
   told_.changed(query);
   return {};
+}
+
+Result<void> LiveScene::hold(const HeldView& held) {
+  told_.asked({held});
+  const auto link = now_.scene->cell().find_link(held.link);
+  if (!link) {
+    return failure(Problem{ProblemKind::invalid, "unknown-link", "/link",
+                           "the cell has no link \"" + held.link + "\"", held.link});
+  }
+  return change(holding(*now_.scene, held.object, *link));
 }
 
 Result<void> LiveScene::edit(SceneEdit edit) {

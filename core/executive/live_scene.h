@@ -12,6 +12,7 @@
 #include "core/base/problem.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/collision/state/clearance_query.h"
+#include "core/executive/events.h"
 
 namespace armloom {
 
@@ -114,6 +115,10 @@ class LiveScene {
   // Changes what arms hold, and what may touch. Not an input: it follows from the inputs. Problems:
   // those of PlanningScene::with().
   [[nodiscard]] Result<void> change(PlanningScene::Content content);
+
+  // The link carries the object, with its pose in the link's frame. For a restart. Problems: those
+  // of PlanningScene::with().
+  [[nodiscard]] Result<void> hold(const HeldView& held);
 
   // Prepare and apply an edit at once.
   [[nodiscard]] Result<void> add(CollisionObject object);

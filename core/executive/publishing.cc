@@ -5,6 +5,7 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
+#include "core/executive/holding.h"
 #include "core/executive/task_view.h"
 
 namespace armloom {
@@ -50,10 +51,7 @@ SceneView Publisher::scene() const {
   const PlanningScenePtr& scene = shown_.scene.scene();
   SceneView view{shown_.scene.version(), {scene, &scene->objects()}};
   for (const Attachment& held : scene->attachments()) {
-    const Link& link = shown_.cell.link(held.link);
-    view.held.push_back({{held.object.name, held.object.shape, held.X_LO},
-                         link.name,
-                         shown_.cell.arm(*link.arm).name});
+    view.held.push_back(place_of(*scene, held.object.name));
   }
   return view;
 }

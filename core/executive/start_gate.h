@@ -31,6 +31,7 @@ class StartGate {
   void forget(JobId job) { starts_.erase(job); }
 
   [[nodiscard]] bool has_log() const { return log_ != nullptr; }
+  [[nodiscard]] StartLog* log() const { return log_; }
   // Returns true if the job is dispatched without authority, because its start is not recorded.
   [[nodiscard]] bool withholds(JobId job) const;
   // Returns true if the job's start is recorded or is being recorded.

@@ -24,6 +24,9 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
   void about_to_move(JobId job, std::function<void()> written) override {
     starts_[job] = std::move(written);
   }
+  void has_moved(JobId job, const HeldView&, std::function<void()> written) override {
+    starts_[job] = std::move(written);
+  }
 
   void answer_question(bool interrupted) { answer(asked_, checker_, interrupted); }
   void answer_certify() { answer(certified_, certifier_, false); }

@@ -47,6 +47,7 @@ struct Task {
   std::optional<TimePoint> since = {};     // the present action has begun
   std::vector<Wait> waits_on = {};         // of the present action
   TouchOf touch = {};                      // what objects may touch at present
+  bool awaits_record = false;              // StartLog::has_moved
   std::optional<TaskEnd> end = {};
 
   [[nodiscard]] const TaskStep* present() const { return at < steps.size() ? &steps[at] : nullptr; }

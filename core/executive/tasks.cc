@@ -95,7 +95,7 @@ void Executive::Impl::go_on_with_tasks() {
 
 // Returns true if the task has advanced.
 bool Executive::Impl::go_on(Task& task) {
-  if (task.end) return false;
+  if (task.end || task.awaits_record) return false;
   if (task.at == task.steps.size()) {
     end_task(task, {JobState::succeeded, Reason::completed, "", clock_.now});
     return true;
@@ -159,14 +159,14 @@ Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
     auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object,
                             *cell_->find_link(attach->link), touch_of(*cell_, attach->touch));
     if (!content) return failure(std::move(content.error()));
-    return changed_holding(std::move(*content));
+    return changed_holding(task, attach->object, std::move(*content));
   }
   if (const auto* detach = std::get_if<DetachRequest>(&request.what)) {
     const auto carrier = carrier_of(*scene_.scene(), detach->object);
     if (carrier && !has_arm_of(task, *carrier)) return false;
     auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object);
     if (!content) return failure(std::move(content.error()));
-    return changed_holding(std::move(*content));
+    return changed_holding(task, detach->object, std::move(*content));
   }
   if (const auto* wait = std::get_if<WaitRequest>(&request.what)) {
     const TimePoint until = *task.since + wait->time;
@@ -227,8 +227,17 @@ bool Executive::Impl::set_output(Task& task, const std::string& name, const Sign
   return false;
 }
 
-Result<bool> Executive::Impl::changed_holding(PlanningScene::Content content) {
+Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& object,
+                                              PlanningScene::Content content) {
   if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
+  StartLog* log = execution_.starts().log();
+  if (log == nullptr) return true;
+  task.awaits_record = true;
+  log->has_moved(task.id, place_of(*scene_.scene(), object), [this, id = task.id] {
+    note({ExecutiveInput::StartWritten{only_step(id)}});
+    if (Task* known = tasks_.find(id)) known->awaits_record = false;
+    go_on_with_tasks();
+  });
   return true;
 }
 

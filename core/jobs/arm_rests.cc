@@ -63,13 +63,14 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
 
 void ArmRests::stop(ArmId arm, std::string cause, bool until_connected) {
   std::optional<StopOfArm>& stop = stopped_[arm.index()];
-  if (!stop || stop->until_connected) stop = {std::move(cause), until_connected};
+  if (stop && (!stop->until_connected || until_connected)) return;
+  stop = {std::move(cause), until_connected};
   ++changes_;
 }
 
 void ArmRests::resume(ArmId arm) {
+  if (stopped_[arm.index()]) ++changes_;
   stopped_[arm.index()].reset();
-  ++changes_;
 }
 
 std::optional<Wait> ArmRests::stop_of(const Step& step) const {

@@ -33,6 +33,8 @@ void StateWriter::change_policy(std::shared_ptr<const Policy> policy) {
 }
 
 void StateWriter::set_speed(const SetSpeed& input) {
+  const double before = input.arm ? state_.speed.arm(*input.arm) : state_.speed.cell();
+  if (input.share == before) return;
   state_.speed.set(input.arm, input.share, state_.now);
   state_.expected.spoil();
   ++state_.changes_;

@@ -229,6 +229,7 @@ void Transitions::brake(const Step& step, AfterStop after) {
   if (braking != nullptr && (braking->after.ends() || after.then == Then::hold)) {
     next.after = braking->after;
   }
+  if (braking != nullptr) next.rests_at = braking->rests_at;
   if (braking == nullptr) effect(Brake{step.id});
   if (!next.after.ends() && step.has_started()) next.state = JobState::paused;
   enter(step, std::move(next));

@@ -33,7 +33,7 @@ constexpr std::size_t kPutOffMax = 32;
 std::optional<StepId> next_recheck(const State& state) {
   std::optional<StepId> next;
   for (const Step& step : state.jobs.past_queue()) {
-    if (!step.has_authority() || !step.asking.is_in_question) continue;
+    if (!step.is_admitted() || !step.asking.is_in_question) continue;
     const bool is_older =
         !next || step.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
     if (is_older) next = step.id;
@@ -183,7 +183,9 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
   OpenQuestion question = std::move(*open_);
   open_.reset();
   if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
-  state.lanes().learn(question.passages, input.verdict, state->jobs);
+  if (question.version >= state->scene_epoch) {
+    state.lanes().learn(question.passages, input.verdict, state->jobs);
+  }
   if (question.version != state->version()) return;  // stale: it is asked again
   switch (question.purpose) {
     case Purpose::yield:
@@ -199,8 +201,11 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
     }
     case Purpose::recheck: {
       const Step& step = state->jobs.at(question.steps.front());
-      note_free(state, step);
-      if (input.verdict.kind != Verdict::Kind::free) hold_back(state, step, input.verdict);
+      if (input.verdict.kind == Verdict::Kind::free) {
+        note_free(state, step);
+      } else {  // it stays in question until it is found free, also if it has not moved
+        hold_back(state, step, input.verdict);
+      }
       return;
     }
     case Purpose::option:

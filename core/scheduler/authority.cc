@@ -53,7 +53,7 @@ void dispatch_if_ready(Transitions& state, const Step& step) {
 }
 
 void extend_own_authority(Transitions& state, const Step& step) {
-  if (step.in<Moving>() == nullptr) return;
+  if (step.in<Moving>() == nullptr || step.asking.is_in_question) return;
   const Duration limit = state->graph.limit(step.id);
   const Duration authority = std::min(limit, step.progress + state->graph.horizon(step.id));
   const Duration granted = state->graph.find(step.id)->authority;

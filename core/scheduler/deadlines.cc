@@ -32,7 +32,8 @@ void see_whether_in_vain(Transitions& state, const Step& step) {
   if (held && !state->is_judged(step)) return;  // not known yet
   const FoundWaits waits = found_in_the_way(state, step);
   const bool in_vain = std::ranges::any_of(waits.all(), [&](const Wait& wait) {
-    return wait.kind == Wait::Kind::object || is_idle_arm(state, wait);
+    return wait.kind == Wait::Kind::object || wait.kind == Wait::Kind::guard ||
+           is_idle_arm(state, wait);
   });
   if (!in_vain) set_since(std::nullopt);
   if (in_vain && !pause->in_vain_since) set_since(state->clock());

@@ -97,7 +97,7 @@ CoordinatedMotion as_candidate(const State& state, const Step& step) {
           .arms = step.trajectory->arms(),
           .duration = step.trajectory->duration(),
           .progress = step.progress,
-          .authority = step.progress,
+          .authority = std::max(step.progress, step.farthest),  // of a team's foremost arm
           .priority = step.job->terms.priority,
           .outlook = {.pace = state.speed.pace(step.trajectory->arms())}};
 }

@@ -54,9 +54,10 @@ void stay_queued(Transitions& state, const Step& step, Judgement found) {
 }  // namespace
 
 bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdict) {
+  if (verdict.kind != Verdict::Kind::conflict || step.has_started()) return false;
   const auto self = std::ranges::find(verdict.conflicts, Conflict::With::self, &Conflict::with);
-  if (self == verdict.conflicts.end() || step.has_started()) return false;
-  state.end(step, JobState::failed, Reason::self_collision, self_collision_text(*self));
+  if (self == verdict.conflicts.end()) return false;
+  state.give_up(step, {AfterStop::Then::fail, Reason::self_collision, self_collision_text(*self)});
   return true;
 }
 

@@ -51,7 +51,8 @@ void rejoin(Transitions& state, ArmId arm) {
   const auto& queue = state->jobs.queues()[arm];
   if (queue.empty() || state->arms.is_stopped(arm)) return;
   const Step& step = state->jobs.at(queue.front());
-  if (!step.has_started() || step.has_authority()) return;
+  const bool is_in_motion = step.in<Moving>() != nullptr || step.in<Braking>() != nullptr;
+  if (!step.has_started() || is_in_motion) return;
   const OffPath off = nearest_on_path(state, arm, step);
   if (off.distance <= state->cell->execution.start_tolerance_rad) {
     const bool is_within = off.distance <= state->cell->tracking_error(state->cell->arm(arm).robot);
@@ -65,14 +66,25 @@ void rejoin(Transitions& state, ArmId arm) {
   if (rejoins && !why_not_replanned(step)) {
     return ask_for_another_way(state, step, AnotherWay::Cause::blocked);
   }
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "the arm left its path, or was moved while it was stopped: %s is at %.6g, its path "
-                "at %.6g",
-                state->cell->joint(off.joint).name.c_str(),
-                state->arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
-  state.give_up(step,
-                {.then = AfterStop::Then::fail, .reason = Reason::start_mismatch, .detail = text});
+  state.give_up(step, {.then = AfterStop::Then::fail,
+                       .reason = Reason::start_mismatch,
+                       .detail = *rest_beside_path(state, step)});
+}
+
+std::optional<std::string> rest_beside_path(const State& state, const Step& step) {
+  if (!step.has_started()) return std::nullopt;
+  for (const ArmId arm : step.trajectory->arms()) {
+    const OffPath off = nearest_on_path(state, arm, step);
+    if (off.distance <= state.cell->execution.start_tolerance_rad) continue;
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "the arm left its path, or was moved while it was stopped: %s is at %.6g, its "
+                  "path at %.6g",
+                  state.cell->joint(off.joint).name.c_str(),
+                  state.arms.rest()[static_cast<Eigen::Index>(off.joint.index())], off.path);
+    return text;
+  }
+  return std::nullopt;
 }
 
 }  // namespace armloom

@@ -74,12 +74,23 @@ void take(Transitions& state, const Unlocated& input) {
   explain_again(state, input.may_meet);
 }
 
+// The arm rests elsewhere: motions that wait for its rest get new orders.
+void decide_again_beside(Transitions& state, ArmId arm) {
+  for (const Step& step : state->jobs.past_queue_now()) {
+    if (!step.has_authority() || !state->graph.is_held_by(step.id, {arm})) continue;
+    state.brake(step, {.then = AfterStop::Then::decide_again});
+  }
+}
+
 void take(Transitions& state, const Located& input) {
   explain_again(state, state.arms().set_located(input.arm));
   const auto& queue = state->jobs.queues()[input.arm];
   const Step* head = queue.empty() ? nullptr : &state->jobs.at(queue.front());
-  if (head != nullptr && head->has_authority()) return;
+  const bool is_in_motion =
+      head != nullptr && (head->in<Moving>() != nullptr || head->in<Braking>() != nullptr);
+  if (is_in_motion) return;
   state.locate(input);
+  decide_again_beside(state, input.arm);
   rejoin(state, input.arm);
   compare_again(state);
 }
@@ -240,9 +251,8 @@ void Scheduler::on(const Cancel& input) {
   bool brakes = step->has_authority();
   for (JobId approach : approaches_of(state_, *step)) {
     brakes = brakes || state_->jobs.at(approach).has_authority();
-    state_.give_up(state_->jobs.at(approach), {.then = AfterStop::Then::cancel});
   }
-  state_.give_up(*step, {.then = AfterStop::Then::cancel});
+  give_up_with_approaches(state_, *step, {.then = AfterStop::Then::cancel});
   if (brakes) compare_again(state_);
 }
 
@@ -260,7 +270,8 @@ void Scheduler::on(const MotionReport& input) {
     const auto* braking = step->in<Braking>();
     const AfterStop after = braking != nullptr ? braking->after : AfterStop{};
     state_.come_to_rest(*step, input);
-    if (after.then == AfterStop::Then::decide_again && step->is_waiting()) {
+    const bool is_refused = after.then == AfterStop::Then::decide_again && !after.detail.empty();
+    if (is_refused && step->is_waiting()) {
       put_off(state_, *step,
               {{.kind = Wait::Kind::guard, .arm = after.arm, .detail = after.detail}});
     }

@@ -6,6 +6,7 @@
 #include "server/codec/read_text.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
+#include "server/messages/scene.h"
 
 namespace armloom {
 Result<std::unique_ptr<JobKeeper>> JobKeeper::open(const std::filesystem::path& folder,
@@ -114,6 +115,16 @@ void JobKeeper::about_to_move(JobId job, std::function<void()> written) {
   store_->about_to_move(job.value(), [loop = loop_, written = std::move(written)](bool) {
     loop->post_urgent([written](Executive&) { written(); });
   });
+}
+
+// If the store cannot be written, all arms are stopped, and this is tried again.
+void JobKeeper::has_moved(JobId job, const HeldView& object, std::function<void()> written) {
+  std::vector<StoredObject> changed{{.name = object.object.name, .text = text_of_place(object)}};
+  const auto stored = [this, job, object, written = std::move(written)](bool is_written) {
+    if (!is_written) return has_moved(job, object, written);
+    loop_->post_urgent([written](Executive&) { written(); });
+  };
+  store_->change(std::move(changed), stored);
 }
 
 }  // namespace armloom

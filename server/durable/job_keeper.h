@@ -65,6 +65,7 @@ class JobKeeper final : public StartLog {
   void stopped(std::vector<std::string> arms) { store_->stopped(std::move(arms)); }
 
   void about_to_move(JobId job, std::function<void()> written) override;
+  void has_moved(JobId job, const HeldView& object, std::function<void()> written) override;
 
   [[nodiscard]] JobStore& store() { return *store_; }
   [[nodiscard]] const JobHistory& history() const { return *history_; }

@@ -30,7 +30,11 @@ struct ObjectNotPutBack {
 Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
   const bool is_there = has_object(scene.objects(), stored.name);
   if (!stored.text) return is_there ? scene.remove(stored.name) : Result<void>();
-  auto object = read_object_text(*stored.text, stored.name);
+  auto place = read_place(*stored.text, scene.scene()->cell());
+  if (!place) return failure(std::move(place.error()));
+  if (*place && !(*place)->link.empty()) return scene.hold(**place);
+  auto object = *place ? Result<CollisionObject>((*place)->object)
+                       : read_object_text(*stored.text, stored.name);
   if (!object) return failure(std::move(object.error()));
   return is_there ? scene.replace(std::move(*object)) : scene.add(std::move(*object));
 }
@@ -114,6 +118,7 @@ StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string&
   view["ended_s"] = view["started_s"].is_null() ? view["submitted_s"] : view["started_s"];
   view["ended_at"] = clock.at(TimePoint{});
   view["result"] = {{"reason", to_string(reason)}, {"detail", detail}};
+  if (view.contains("step")) view["result"]["step"] = view["step"];  // of a job with steps
   using nlohmann::ordered_json;
   job.view = view.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   return job;

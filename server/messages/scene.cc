@@ -199,4 +199,49 @@ FormatPtr<std::uint64_t> scene_version_format() {
   return format;
 }
 
+std::string text_of_place(const HeldView& place) {
+  nlohmann::json record{{"place", {{"link", place.link}}}};
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(place.object.X_WO(row, column));
+  }
+  record["place"]["pose"] = rows;
+  record["place"]["object"] = nlohmann::json::parse(text_of(*object_format(), place.object));
+  return record.dump();
+}
+
+Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& cell) {
+  const auto record = nlohmann::json::parse(text, nullptr, false);
+  if (!record.is_object() || !record.contains("place")) return std::nullopt;
+  const auto bad = [](const char* why) {
+    return failure(Problem{ProblemKind::malformed, "bad-record", "/place", why, {}});
+  };
+  try {
+    const nlohmann::json& place = record.at("place");
+    const auto rows = place.at("pose").get<std::vector<double>>();
+    nlohmann::json body = place.at("object");
+    HeldView held;
+    held.link = place.at("link").get<std::string>();
+    const std::string name = body.at("name").get<std::string>();
+    if (body.contains("mesh")) {
+      const auto known = std::ranges::find(cell.objects, name, &CollisionObject::name);
+      if (known == cell.objects.end())
+        return bad("the cell file has no mesh of this name any more");
+      held.object = *known;
+    } else {
+      auto read = read_object_text(body.dump(), name);
+      if (!read) return failure(std::move(read.error()));
+      held.object = std::move(*read);
+    }
+    if (rows.size() != 12) return bad("the pose has not 12 numbers");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      held.object.X_WO.matrix()(static_cast<Eigen::Index>(i / 4),
+                                static_cast<Eigen::Index>(i % 4)) = rows[i];
+    }
+    return held;
+  } catch (const nlohmann::json::exception&) {
+    return bad("the record is incomplete");
+  }
+}
+
 }  // namespace armloom

@@ -51,4 +51,10 @@ struct SceneChange {
 [[nodiscard]] FormatPtr<SceneChange> scene_change_format();
 [[nodiscard]] FormatPtr<std::uint64_t> scene_version_format();
 
+// Records of the store: an object where a step of a job has put it.
+[[nodiscard]] std::string text_of_place(const HeldView& place);
+// Returns nullopt if the text is no such record, but a client's object. Problems: a record that
+// cannot be read. The shape of a mesh is taken from the cell's object of that name.
+[[nodiscard]] Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& cell);
+
 }  // namespace armloom

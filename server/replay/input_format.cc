@@ -223,6 +223,8 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"replace_object", {object_part<In::ObjectReplaced>()}},
       {"remove_object", {always("object", &In::ObjectRemoved::name, text())}},
       {"set_objects", {objects_part()}},
+      {"hold_object",
+       {object_part<In::ObjectHeld>(), always("link", &In::ObjectHeld::link, text())}},
       {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},
       {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},

@@ -269,6 +269,7 @@ TEST(Task, RefusesWhatCannotBeDone) {
 TEST(Task, ActsOnlyWhenItsStartIsStored) {
   struct SlowLog final : StartLog {
     void about_to_move(JobId, std::function<void()> done) override { written = std::move(done); }
+    void has_moved(JobId, const HeldView&, std::function<void()> done) override { done(); }
     std::function<void()> written;
   } starts;
   Log log;

@@ -214,5 +214,82 @@ TEST(Resume, AcceptsAnArmThatRestsAheadOfItsTeam) {
   EXPECT_EQ(bench.state(job), JobState::paused);
 }
 
+// ---- What happens between a decision and the arm ----
+
+TEST(BeforeItMoves, ANewObjectKeepsTheJobFromStarting) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.step(SceneChanged{{ArmId{0}}}, at(2ms));
+  bench.answer_conflict(at(3ms), Conflict::With::scene);
+  EXPECT_THAT(bench.braked, ElementsAre(job));
+  bench.stopped(job, 0ms, at(4ms));
+  EXPECT_THAT(bench.dispatched, SizeIs(1));
+  bench.answer_conflict(at(5ms), Conflict::With::scene);
+  EXPECT_THAT(bench.dispatched, SizeIs(1));
+  EXPECT_EQ(bench.state(job), JobState::queued);
+}
+
+TEST(BeforeItMoves, ASelfCollisionBrakesItFirst) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.step(SceneChanged{{ArmId{0}}}, at(2ms));
+  bench.answer_conflict(at(3ms), Conflict::With::self);
+  EXPECT_THAT(bench.braked, ElementsAre(job));
+  bench.stopped(job, 0ms, at(4ms));
+  EXPECT_EQ(bench.state(job), JobState::failed);
+  EXPECT_THAT(bench.released, ElementsAre(job));
+}
+
+TEST(BeforeItMoves, AMovedArmDoesNotStart) {
+  Bench bench(1);
+  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  bench.answer_free(at(1ms));
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(2ms));
+  bench.stopped(job, 0ms, at(3ms));
+  Eigen::VectorXd position(1);
+  position << 0.5;
+  bench.step(Located{ArmId{0}, position}, at(500ms));
+  bench.step(Resume{{ArmId{0}}}, at(1s));
+  EXPECT_THAT(bench.dispatched, SizeIs(1));
+  EXPECT_EQ(bench.state(job), JobState::failed);
+  EXPECT_EQ(bench.job(job).reason(), Reason::start_mismatch);
+}
+
+TEST(Resume, FailsAJobBesideItsPathIfNoPathIsFound) {
+  OffPath bench(0.02, MoveToStart::plan);
+  bench.stop_and_resume();
+  ASSERT_THAT(bench.plans, SizeIs(1));
+  bench.step(PlanMade{only_step(bench.job), bench.plans[0].number, nullptr, "none"}, at(900ms));
+  EXPECT_EQ(bench.state(bench.job), JobState::failed);
+  EXPECT_EQ(bench.Bench::job(bench.job).reason(), Reason::start_mismatch);
+}
+
+TEST(Stop, OfAStoppedArmLeavesOtherChecksValid) {
+  Bench bench(2);
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(0ms));
+  const JobId job = bench.submit(move({1}, 0, 1, 2s), at(1ms));
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(2ms));
+  bench.step(SetSpeed{std::nullopt, 1.0}, at(3ms));
+  bench.answer_free(at(4ms));
+  EXPECT_EQ(bench.state(job), JobState::scheduled);
+}
+
+// The rest of a canceled job holds another motion. The arm is then moved by hand.
+TEST(Located, FreesMotionsThatTheArmHeld) {
+  OneBehindAnother two(ProgressBox{1500ms, 1600ms, 300ms, 900ms});
+  Bench& bench = two.bench;
+  bench.step(Cancel{two.first}, at(504ms));
+  bench.stopped(two.first, 600ms, at(600ms));
+  bench.progressed(two.second, 500ms, at(1003ms));
+  Eigen::VectorXd position(1);
+  position << -1.0;
+  bench.step(Located{ArmId{0}, position}, at(2s));
+  ASSERT_THAT(bench.braked, ElementsAre(two.first, two.second));
+  bench.stopped(two.second, 500ms, at(2100ms));
+  EXPECT_TRUE(bench.question) << "new orders are decided";
+}
+
 }  // namespace
 }  // namespace armloom

@@ -98,6 +98,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     pending_.emplace(planned_by_, [task = std::move(task)] { task.done(answer_of(task)); });
   }
   void about_to_move(JobId, std::function<void()> written) override { later(std::move(written)); }
+  void has_moved(JobId, const HeldView&, std::function<void()> written) override {
+    later(std::move(written));
+  }
   void came(std::uint64_t ticks, const ExecutiveInput& input) override {
     log.push_back(text_of(*logged_input_format(), {ticks, input}));
   }

@@ -187,11 +187,7 @@ bool WaitCycles::resolve(Transitions& state, const WaitCycle& ring) {
     if (last.job->system_job) break;
     lost_.insert_or_assign(arm, Lost{state->arms.came_by(arm), state->scene_epoch});
   }
-  const AfterStop fails{AfterStop::Then::fail, Reason::deadlock};
-  for (JobId approach : approaches_of(state, last)) {
-    state.give_up(state->jobs.at(approach), fails);
-  }
-  state.give_up(last, fails);
+  give_up_with_approaches(state, last, {AfterStop::Then::fail, Reason::deadlock});
   return true;
 }
 

@@ -76,6 +76,11 @@ std::vector<JobId> approaches_of(const State& state, const Step& step) {
   return approaches;
 }
 
+void give_up_with_approaches(Transitions& state, const Step& step, const AfterStop& after) {
+  for (JobId approach : approaches_of(state, step)) state.give_up(state->jobs.at(approach), after);
+  state.give_up(step, after);
+}
+
 std::optional<JobId> approached_job(const State& state, JobId approach) {
   const Step& own = state.jobs.at(approach);
   if (!own.job->errand.before || !state.jobs.is_active(*own.job->errand.before))

@@ -28,6 +28,8 @@ void keep_those_behind(Transitions& state, const Step& step);
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Returns the job's moves-to-start that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Step& step);
+// Gives up the job's moves to its start, then the job.
+void give_up_with_approaches(Transitions& state, const Step& step, const AfterStop& after);
 // Returns the job that this move-to-start is for; nullopt if it is not a move-to-start.
 [[nodiscard]] std::optional<JobId> approached_job(const State& state, JobId approach);
 

@@ -67,8 +67,9 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
 PlanQuestion question_about(const State& state, const Step& step, const GoalWay& way,
                             Configuration at) {
   PlanQuestion question{.goal = way.goal, .seed = step.id.job.value()};
-  const JobId turn =
-      step.job->errand.before ? state.jobs.at(*step.job->errand.before).job->turn : step.job->turn;
+  const Step* helped =
+      step.job->errand.before ? state.jobs.find(*step.job->errand.before) : nullptr;
+  const JobId turn = helped != nullptr ? helped->job->turn : step.job->turn;
   for (std::uint32_t a = 0; a < state.cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (arm == way.goal.arm) continue;

@@ -6,6 +6,8 @@
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/rejoining.h"
+#include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/set_joints.h"
 
@@ -140,6 +142,9 @@ bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer
     }
   } else if (other.cause == AnotherWay::Cause::timeout) {
     expire(state, step, "; no other path: " + *other.refusal);
+  } else if (auto beside = rest_beside_path(state, step)) {  // it cannot go on from there
+    state.give_up(step, {AfterStop::Then::fail, Reason::start_mismatch,
+                         *beside + "; no path from there: " + *other.refusal});
   }
   return is_taken;
 }
@@ -181,8 +186,10 @@ bool goes_on_after_timeout(Transitions& state, const Step& step) {
 
 void expire(Transitions& state, const Step& step, const std::string& why) {
   const char* where = step.has_started() ? " on its path" : " in the backlog";
-  state.give_up(step, {AfterStop::Then::fail, Reason::backlog_timeout,
-                       "waited " + seconds_text(*step.job->terms.backlog_timeout) + where + why});
+  give_up_with_approaches(
+      state, step,
+      {AfterStop::Then::fail, Reason::backlog_timeout,
+       "waited " + seconds_text(*step.job->terms.backlog_timeout) + where + why});
 }
 
 }  // namespace armloom
