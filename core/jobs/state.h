@@ -50,7 +50,7 @@ struct State {
         jobs(cell->arms.size(), first),
         arms(*cell, std::move(rest)),
         speed(cell->arms.size()),
-        lanes(cell->execution.start_tolerance_rad),
+        lanes(cell->execution.start_tolerance_rad + Places::kRounding),
         graph(cell->arms.size()) {}
 
   // Grows when the admitted motions, the arms' rests, the waiting jobs' paths, the scene, the

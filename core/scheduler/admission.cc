@@ -262,7 +262,7 @@ void Admission::decide(Transitions& state, const Verdict& verdict,
   const Step& first = state->jobs.at(steps.front());
   if (!follow_each_other(state, steps)) {
     // Another arm was chosen for a job before one of these, or its plan is old.
-    if (steps.size() > 1 && !tries_together(state, steps, false)) {
+    if (steps.size() == 1 || !tries_together(state, steps, false)) {
       put_off(state, first, first.judgement().found);
     }
     return;

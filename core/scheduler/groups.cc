@@ -65,7 +65,8 @@ bool follow_each_other(const State& state, const std::vector<StepId>& steps) {
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     if (!contains(steps, motion.step)) comes(state.jobs.at(motion.step).leg);
   }
-  const double tolerance = state.cell->execution.start_tolerance_rad;
+  // A place is known up to rounding. The start itself is compared exactly before it is dispatched.
+  const double tolerance = state.cell->execution.start_tolerance_rad + Places::kRounding;
   const auto is_near = [&](const PlacePtr& begins, const PlacePtr& at) {
     return begins == at || (begins->q - at->q).cwiseAbs().maxCoeff() <= tolerance;
   };
