@@ -810,6 +810,7 @@ export const kText = {
     running: 'running, ',
     expected: 'expected ',
     not_scheduled: (n: number) => `${n} more ${n === 1 ? 'job' : 'jobs'} not scheduled yet`,
+    not_predicted: (title: string, step: string) => `${title}: ${step}, end not predicted`,
     nothing_planned: 'nothing is planned',
   },
 

@@ -195,7 +195,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
     case 'io': return words.short_for(shown_name(first.id ?? ''));
-    case 'action': return words.short_action;
+    case 'action': return first.detail === undefined ? words.short_action : shown_text(first.detail);
   }
 }
 

@@ -21,7 +21,7 @@ function answer(objects: string[], held: Record<string, string>): Scene {
   if (!parsed.ok) throw new Error(parsed.fault);
   return parsed.value;
 }
-/** Where each object is: in the scene, or held by an arm. */
+/** Returns the place of each object: in the scene, or held by an arm. */
 const places = (of: Store = store) => [
   ...of.objects.map(({ name }) => `${name} in the scene`), ...of.held.map(({ object, arm }) => `${object.name} held by ${arm}`),
 ].sort();

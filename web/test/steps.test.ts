@@ -1,10 +1,12 @@
 import { describe, expect, it } from 'vitest';
 import { action_in_words, shown_steps, step_in_words, title_of_step } from '../src/jobs/steps';
+import { states_of } from '../src/jobs/states';
 import { step_of } from '../src/jobs/when';
 import { need_of } from '../src/recovery/needs';
-import { parse_job, parse_message, type Arm, type Forecast, type Job, type Step } from '../src/server/messages';
+import { parse_job, parse_message, type Arm, type Forecast, type Job, type Step, type WaitsOn } from '../src/server/messages';
+import type { Change } from '../src/state/job_book';
 import { Store } from '../src/state/store';
-import { figure_in_words, result_in_words } from '../src/wording';
+import { figure_in_words, result_in_words, waited_for } from '../src/wording';
 import { arm_json, envelope, frame, job_json, snapshot, step_json, wait_json } from './samples';
 
 const kSteps = [
@@ -135,6 +137,19 @@ describe('A job with steps', () => {
     const forecast = { now_s: 10, horizon_steps: 2, arms: [{ name: 'left', waiting: 0, steps: [{ id: 'pick', starts_s: 10, ends_s: 14, pauses: [] }] }] } as unknown as Forecast;
     expect(step_of(job(), forecast)).toBeNull();
     expect(step_of(job({ state: 'scheduled', started_s: null }), forecast)?.starts_s).toBe(10);
+  });
+
+  it('lists its stops, but not the pauses between its steps', () => {
+    const heard = [['queued', 9], ['running', 10.01], ['paused', 11], ['running', 12], ['stopped', 13], ['running', 14]].map(([state, t_s]) => ({ state, t_s }) as Change);
+    const names = (one: Job) => states_of(one, heard).map(([name]) => name);
+    expect(names(job())).toEqual(['submitted', 'queued', 'started', 'stopped', 'ended']);
+    const { steps: _steps, step: _step, ...plain } = job();
+    expect(names(plain)).toEqual(['submitted', 'queued', 'running', 'paused', 'running', 'stopped', 'running', 'ended']);
+  });
+
+  it('waits for an action, in the words of the server', () => {
+    expect(waited_for({ waits_on: [wait_json({ kind: 'action', id: null, arm: null, links: [], detail: 'waits 4 s' }) as WaitsOn] })).toBe('waits 4 s');
+    expect(waited_for({ waits_on: [wait_json({ kind: 'action', id: null, arm: null, links: [] }) as WaitsOn] })).toBe('waits for an action');
   });
 
   it('continues after a stop at its step', () => {

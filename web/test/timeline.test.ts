@@ -81,6 +81,20 @@ describe('Timeline lanes', () => {
     expect(motions({ state: 'failed', ended_s: 9, name: 'Pick 7', result: { reason: 'no_plan', detail: '', step: 4 } })[0]).toEqual([
       ['Pick 7', 1, 3, 'failed'], ['Pick 7: lift', 4, 6, 'succeeded'], ['Pick 7: back', 7, 9, 'failed'],
     ]);
+    begun.push({ step: 1, t_s: 9 });
+    expect(motions({ state: 'failed', ended_s: 9, result: { reason: 'step_failed', detail: '', step: 1 } })[0]?.at(-1), 'an action after the motion failed').toEqual(['pick: back', 7, 9, 'failed']);
+    expect(motions({ state: 'paused', step: 1 })[0]?.at(-1), 'an action is under way').toEqual(['pick: back', 7, 9, 'succeeded']);
+  });
+
+  it('tell of a job with steps that it has begun, although the server predicts no more of it', () => {
+    const steps = [step_json('move_to', { arms: ['left'] }), step_json('wait_s', { detail: '1 s' })];
+    const forecast = (waiting: number, listed: object[] = []) => ({ now_s: 10, horizon_steps: 6, arms: [{ name: 'left', waiting, steps: listed }] }) as unknown as Forecast;
+    const words = (over: object, expected: Forecast) => lane_in_words(known([job('pick', { state: 'paused', started_s: 2, steps, step: 1, ...over })], expected), 10);
+    expect(words({}, forecast(1))).toEqual(['pick: step 2 of 2 (wait 1 s), end not predicted']);
+    expect(words({}, forecast(3))).toEqual(['pick: step 2 of 2 (wait 1 s), end not predicted', '2 more jobs not scheduled yet']);
+    const [first] = kForecast.arms[0]?.steps ?? [];
+    expect(words({ state: 'running', step: 0 }, forecast(1, [{ ...first, id: 'pick', name: '' }]))).toEqual(['pick: running, 0:00:10.0 to 0:00:12.0', '1 more job not scheduled yet']);
+    expect(words({ state: 'queued', started_s: null, step: 0 }, forecast(1))).toEqual(['1 more job not scheduled yet']);
   });
 
   it('are described soonest first, jobs without times last', () => {

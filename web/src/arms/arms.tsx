@@ -68,7 +68,7 @@ function Waiting({ job, app }: { job: Job; app: App }) {
   const { behind, more } = until === '' ? turn : { behind: until, more: '' };
   const to = blocker_of(job) ?? { page: 'job', id: job.id };
   return (
-    <p class="waiting small" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>
+    <p class={`waiting small${more === '' ? ' alone' : ''}`} data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>
       <Link app={app} to={to} test="arm-waits-for">{behind}</Link>{more}
       <Starves job={job} />
     </p>

@@ -64,7 +64,7 @@ export interface ShownStep {
   number: number;
   state: Step['state'];
   title: string;
-  /** What the step does, if the title is a name. Else empty. */
+  /** The action, if the title is a name. Else empty. */
   action: string;
   words: string;
   arms: readonly string[];

@@ -34,8 +34,10 @@ export interface Mark {
 export interface Lane {
   arm: string;
   marks: Mark[];
-  /** The number of the arm's jobs that have no predicted times. */
+  /** The number of the arm's jobs that have not begun and have no predicted times. */
   waiting: number;
+  /** The jobs that have begun and have no predicted times: jobs with steps, after the first motion. */
+  unpredicted: readonly Job[];
 }
 
 export interface Known {
@@ -76,10 +78,12 @@ export function lanes_of(known: Known): Lane[] {
     const done = done_of(arm, jobs, pasts.get(arm) ?? kNoPast, now_s, known);
     const steps = (expected?.steps ?? []).filter((step) => !known.has_ended(step.id));
     const timed = until_endless(steps);
+    const unpredicted = jobs.filter(({ id, steps: of, started_s }) => of !== undefined && started_s !== null && steps.every((step) => step.id !== id));
     return {
       arm,
       marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...timed.flatMap((step) => future_of(step, now_s))],
-      waiting: (expected?.waiting ?? 0) + steps.length - timed.length,
+      waiting: Math.max(0, (expected?.waiting ?? 0) - unpredicted.length) + steps.length - timed.length,
+      unpredicted,
     };
   });
 }
@@ -128,13 +132,14 @@ function done_of(arm: string, jobs: readonly Job[], past: Past, now_s: number, {
 function motions_of(arm: string, job: Job, start_s: number, end_s: number, begun: readonly StepChange[]): Mark[] {
   const first_s = begun[0]?.t_s ?? end_s;
   const unknown = begun.length === 0 || first_s > start_s ? [mark('motion', job, start_s, first_s, null)] : [];
-  return [...unknown, ...begun.flatMap(({ step, t_s }, i) => {
-    const of = job.steps?.[step];
-    const is_last = i === begun.length - 1;
-    const to_s = is_last ? end_s : begun[i + 1]?.t_s ?? end_s;
-    if (!of?.arms.includes(arm) || to_s <= t_s) return [];
-    const label = kText.steps.of_job(title_of(job), title_of_step(of));
-    return [{ ...mark('motion', job, t_s, to_s, null), label, state: is_last ? job.state : 'succeeded' as const }];
+  const known = begun.map(({ step, t_s }, i) => ({ step: job.steps?.[step], from_s: t_s, to_s: begun[i + 1]?.t_s ?? end_s, is_present: i === begun.length - 1 }));
+  const moved = known.filter(({ step, from_s, to_s }) => step !== undefined && step.arms.length > 0 && to_s > from_s);
+  return [...unknown, ...moved.flatMap(({ step, from_s, to_s, is_present }, i) => {
+    if (!step?.arms.includes(arm)) return [];
+    const label = kText.steps.of_job(title_of(job), title_of_step(step));
+    // A job that fails at an action has failed after its last motion.
+    const has_state = is_present || (job.ended_s !== null && i === moved.length - 1);
+    return [{ ...mark('motion', job, from_s, to_s, null), label, state: has_state ? job.state : 'succeeded' as const }];
   })];
 }
 
