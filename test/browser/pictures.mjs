@@ -62,3 +62,24 @@ async function compare([a64, b64, least]) {
   }
   return { count, x: x / Math.max(1, count) / a.width, y: y / Math.max(1, count) / a.height };
 }
+
+/** Returns the mean color of the square of 7 by 7 pixels around a point, as [r, g, b]. */
+export async function color_at(browser, png, { x, y }) {
+  const page = await browser.newPage();
+  try {
+    return await page.evaluate(mean_color, [png.toString('base64'), Math.round(x), Math.round(y)]);
+  } finally {
+    await page.close();
+  }
+}
+
+async function mean_color([base64, x, y]) {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+  const g = new OffscreenCanvas(image.width, image.height).getContext('2d');
+  g.drawImage(image, 0, 0);
+  const { data } = g.getImageData(x - 3, y - 3, 7, 7);
+  const sum = [0, 0, 0];
+  for (let i = 0; i < data.length; i += 4) for (const k of [0, 1, 2]) sum[k] += data[i + k];
+  return sum.map((value) => value / (data.length / 4));
+}

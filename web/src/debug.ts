@@ -3,6 +3,7 @@
 //   armloom.q()                           joint name -> measured position
 //   armloom.jobs()                        all jobs that the page knows, as the server sent them
 //   armloom.objects()                     the objects of the scene
+//   armloom.held()                        the objects that arms hold
 //   armloom.numbers()                     the last event number; counts of missed and doubled events
 //   armloom.lanes()                       the timeline of each arm
 //   armloom.halts()                       the periods in which each arm was stopped
@@ -26,6 +27,7 @@ export interface DebugHook {
   q(): Record<string, number>;
   jobs(): unknown[];
   objects(): unknown[];
+  held(): unknown[];
   numbers(): { last: number; missed: number; doubled: number };
   lanes(): unknown[];
   halts(): Record<string, unknown>;
@@ -57,6 +59,7 @@ export function install_debug_hook(app: App, break_connection: () => void): void
     q: () => ({ ...store.q }),
     jobs: () => store.all_jobs(),
     objects: () => [...store.objects],
+    held: () => [...store.held],
     numbers: () => ({ ...store.numbers }),
     lanes: () => known_lanes(app, 0),
     halts: () => Object.fromEntries(store.halts),

@@ -2,6 +2,7 @@
 
 import type { Link } from './server/connection';
 import type { Facts, Restart } from './state/facts';
+import { detail_without_step, step_in_words } from './jobs/steps';
 import { is_stopped } from './state/shown_state';
 import { pair_of, type Arm, type CellController, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 import { cut_text, shown_name, shown_text } from './names';
@@ -150,6 +151,10 @@ export interface Figure { text: string; title: string }
 export function figure_in_words(job: Job, now_s: number, progress: number, ends_s: number | null = null): Figure {
   const words = kText.figure;
   if (job.stopping) return { text: words.stopping, title: words.stopping_title };
+  if (job.steps !== undefined && job.started_s !== null && !is_stopped(job)) {
+    if (job.state === 'running') return { text: kText.steps.runs_for(seconds(now_s - job.started_s)), title: kText.steps.runs_for_title };
+    if (job.state === 'paused') return { text: kText.steps.waits, title: kText.steps.waits_title };
+  }
   switch (job.state) {
     case 'running': return { text: words.left(seconds(ends_s === null ? (1 - progress) * (job.duration_s ?? 0) : Math.max(0, ends_s - now_s))), title: ends_s === null ? words.left_title : words.left_with_pauses_title };
     case 'paused': return is_stopped(job) ? { text: words.stopped, title: words.stopped_title } : { text: words.paused, title: words.paused_title };
@@ -164,7 +169,7 @@ export function figure_in_words(job: Job, now_s: number, progress: number, ends_
 /** Rephrases a figure in the past tense, because the data is old. */
 export function as_last_heard(figure: string): string {
   if (figure === '') return '';
-  return /^waited|left$/.test(figure) ? kText.figure.had(figure) : kText.figure.was(figure);
+  return /^waited|(left|so far)$/.test(figure) ? kText.figure.had(figure) : kText.figure.was(figure);
 }
 
 /**
@@ -190,7 +195,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
     case 'io': return words.short_for(shown_name(first.id ?? ''));
-    case 'action': return words.short_action;
+    case 'action': return first.detail === undefined ? words.short_action : shown_text(first.detail);
   }
 }
 
@@ -267,7 +272,7 @@ export function why_not_connected(link: Link): string | null {
   }
 }
 
-const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'canceled', 'canceled_by_client']);
+const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'canceled', 'canceled_by_client', 'step_failed']);
 
 const kMostNamed = 6;
 
@@ -281,12 +286,15 @@ export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string)
   return kText.server.restarted(since, lost.length === 0 ? kText.server.all_known : kText.server.unknown_status(lost.length, names));
 }
 
-/** Returns how a job ended: the reason, which is one of a fixed list, and the server's detail. */
+/**
+ * Returns how a job ended: the step at which it ended if it has steps, the reason, which is one of a
+ * fixed list, and the server's detail.
+ */
 export function result_in_words(job: Job): string {
   if (!job.result) return '';
   // The state already says how the job ended.
   const words = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
-  return [words, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
+  return [step_in_words(job, true) ?? '', words, shown_text(detail_without_step(job))].filter((part) => part !== '').join(': ');
 }
 
 export function monitor_in_words(event: MonitorData): string {

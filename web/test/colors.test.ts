@@ -34,14 +34,16 @@ function lab(rgb: Triple): Triple {
   return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
 }
 
-function apart(theme: string, a: number, b: number, eye: Eye): number {
-  const [p, q] = [a, b].map((i) => lab(times(kEyes[eye], color(theme, `--arm-${i}`)))) as [Triple, Triple];
+function apart(theme: string, a: number | string, b: number | string, eye: Eye): number {
+  const [p, q] = [a, b].map((one) => lab(times(kEyes[eye], color(theme, typeof one === 'number' ? `--arm-${one}` : one)))) as [Triple, Triple];
   return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
 describe.each([['dark', dark], ['light', light]])('Arm colors, %s', (_, theme) => {
   it.each(Object.keys(kEyes) as Eye[])('are distinguishable with %s', (eye) => {
     expect(apart(theme, 0, 1, eye)).toBeGreaterThan(kLeastOfTwo);
+    // A held object has its arm's color, and must differ from objects of the scene.
+    for (let arm = 0; arm < 8; arm++) expect(apart(theme, arm, '--object', eye), `arm ${arm}`).toBeGreaterThan(kLeastOfTwo);
     for (const a of [0, 1, 2, 3]) for (let b = a + 1; b < 4; b++) expect(apart(theme, a, b, eye), `arms ${a} and ${b}`).toBeGreaterThan(kLeastOfFour);
   });
 });

@@ -20,7 +20,7 @@ describe('Recovery', () => {
   const pose = (a: number, b: number) => ({ left_panda_joint1: a, left_panda_joint2: b });
 
   it('lists an arm that has a fault but no job', () => {
-    const listed = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: null })]]), job: () => null }).map(({ name }) => name);
+    const listed = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: null })]]), job_of: () => null }).map(({ name }) => name);
     expect([listed('fault'), listed('idle')]).toEqual([['left'], []]);
   });
 
@@ -28,7 +28,7 @@ describe('Recovery', () => {
     const job = job_json('pick', { name: 'pick 7', progress: 0.4 }) as Job;
     expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2))).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });
     const stopped = job_json('pick', { waits_on: [wait_json({ kind: 'stop', id: null, arm: 'left', links: [] })] }) as Job;
-    const waiting = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: 'pick' })]]), job: () => stopped }).map(({ name }) => name);
+    const waiting = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: 'pick' })]]), job_of: () => stopped }).map(({ name }) => name);
     expect(waiting('stopped')).toEqual(['left']);
     expect(waiting('moving')).toEqual(['left']);  // the arm is braking
     const next = job_json('place', { name: 'place 3' }) as Job;

@@ -61,3 +61,21 @@ export function diagram_json(cells: Ranges[], over: object = {}): Record<string,
     evaluations: 12, scene_version: 1, ...over,
   };
 }
+
+export function step_json(kind: string, over: object = {}): Record<string, unknown> {
+  return { name: '', kind, state: 'waiting', detail: '', arms: [], progress: 0, ...over };
+}
+
+export function object_json(name: string, over: object = {}): Record<string, unknown> {
+  return { name, box: [0.1, 0.1, 0.1], xyz: [0, 0, 0], rpy: [0, 0, 0], ...over };
+}
+
+/** Returns an object that the hand of an arm holds. `over` changes the object. */
+export function held_json(name: string, arm: string, over: object = {}): Record<string, unknown> {
+  return { object: object_json(name, over), link: `${arm}_hand`, arm };
+}
+
+/** Returns a scene with these objects. `held` has the arm of each held object. */
+export function scene_json(objects: readonly string[], held: Readonly<Record<string, string>>): { version: number; objects: unknown[]; held: unknown[] } {
+  return { version: 2, objects: objects.map((name) => object_json(name)), held: Object.entries(held).map(([name, arm]) => held_json(name, arm)) };
+}

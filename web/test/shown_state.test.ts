@@ -84,7 +84,7 @@ describe('Arm without a link to its controller', () => {
   });
 
   it('must be resumed if the link was lost, but not before the first connection', () => {
-    const halted = (one: Arm) => waiting_arms({ arms: new Map([['left', one]]), job: () => null }).length > 0;
+    const halted = (one: Arm) => waiting_arms({ arms: new Map([['left', one]]), job_of: () => null }).length > 0;
     expect(halted(lost())).toBe(true);
     expect(halted(lost({ state: 'stopped', link: 'connecting' }))).toBe(false);
     expect(halted(arm({ state: 'stopped' }))).toBe(true);

@@ -4,7 +4,7 @@ import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timelin
 import { sheet_of, widest_free } from '../src/timeline/sheet';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
 import { lane_in_words } from '../src/timeline/mark_words';
-import { job_json, wait_json } from './samples';
+import { job_json, step_json, wait_json } from './samples';
 
 const job = (id: string, over: object) => job_json(id, over) as unknown as Job;
 
@@ -24,10 +24,11 @@ const kForecast = {
   }],
 } as unknown as Forecast;
 
+const kNoHistory = { pauses: () => [], steps: () => [] };
 const known = (jobs: Job[], forecast: Forecast | null, now_s = 10): Lane =>
   lanes_of({
-    arms: ['left'], jobs: jobs.filter((one) => one.ended_s === null), pasts: pasts_of(['left'], jobs.filter((one) => one.ended_s !== null), () => []),
-    pauses: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
+    arms: ['left'], jobs: jobs.filter((one) => one.ended_s === null), pasts: pasts_of(['left'], jobs.filter((one) => one.ended_s !== null), kNoHistory),
+    ...kNoHistory, has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
   })[0] as Lane;
 
 describe('Timeline lanes', () => {
@@ -58,6 +59,42 @@ describe('Timeline lanes', () => {
   it('omit what an event has ended since the prediction', () => {
     const lane = known([job('now', { state: 'succeeded', submitted_s: 8, started_s: 8, ended_s: 9.9 })], kForecast);
     expect(lane.marks.some((mark) => mark.expected && mark.job === 'now')).toBe(false);
+  });
+
+  it('have a motion for each step that moves the arm, with the time before the first known step as one', () => {
+    const steps = [['above', ['left']], ['', []], ['lift', ['left']], ['other', ['right']], ['back', ['left']]]
+      .map(([name, arms]) => step_json(name === '' ? 'wait_s' : 'move_to', { name, arms, detail: name === '' ? '1 s' : '' }));
+    const begun = [{ step: 1, t_s: 3 }, { step: 2, t_s: 4 }, { step: 3, t_s: 6 }, { step: 4, t_s: 7 }];
+    const motions = (over: object) => {
+      const stepped = job('pick', { arms: ['left', 'right'], submitted_s: 1, started_s: 1, steps, ...over });
+      const history = { pauses: () => [], steps: () => begun };
+      const ended = stepped.ended_s !== null;
+      const [left, right] = lanes_of({
+        arms: ['left', 'right'], jobs: ended ? [] : [stepped], pasts: pasts_of(['left', 'right'], ended ? [stepped] : [], history), ...history, has_ended: () => ended, forecast: null, now_s: 10,
+      });
+      return [left, right].map((lane) => lane?.marks.map(({ label, from_s, to_s, state }) => [label, from_s, to_s, state]));
+    };
+    expect(motions({ state: 'running', step: 4 })).toEqual([
+      [['', 1, 3, 'running'], ['pick: lift', 4, 6, 'succeeded'], ['pick: back', 7, 10, 'running']],
+      [['', 1, 3, 'running'], ['pick: other', 6, 7, 'succeeded']],
+    ]);
+    expect(motions({ state: 'failed', ended_s: 9, name: 'Pick 7', result: { reason: 'no_plan', detail: '', step: 4 } })[0]).toEqual([
+      ['Pick 7', 1, 3, 'failed'], ['Pick 7: lift', 4, 6, 'succeeded'], ['Pick 7: back', 7, 9, 'failed'],
+    ]);
+    begun.push({ step: 1, t_s: 9 });
+    expect(motions({ state: 'failed', ended_s: 9, result: { reason: 'step_failed', detail: '', step: 1 } })[0]?.at(-1), 'an action after the motion failed').toEqual(['pick: back', 7, 9, 'failed']);
+    expect(motions({ state: 'paused', step: 1 })[0]?.at(-1), 'an action is under way').toEqual(['pick: back', 7, 9, 'succeeded']);
+  });
+
+  it('tell of a job with steps that it has begun, although the server predicts no more of it', () => {
+    const steps = [step_json('move_to', { arms: ['left'] }), step_json('wait_s', { detail: '1 s' })];
+    const forecast = (waiting: number, listed: object[] = []) => ({ now_s: 10, horizon_steps: 6, arms: [{ name: 'left', waiting, steps: listed }] }) as unknown as Forecast;
+    const words = (over: object, expected: Forecast) => lane_in_words(known([job('pick', { state: 'paused', started_s: 2, steps, step: 1, ...over })], expected), 10);
+    expect(words({}, forecast(1))).toEqual(['pick: step 2 of 2 (wait 1 s), end not predicted']);
+    expect(words({}, forecast(3))).toEqual(['pick: step 2 of 2 (wait 1 s), end not predicted', '2 more jobs not scheduled yet']);
+    const [first] = kForecast.arms[0]?.steps ?? [];
+    expect(words({ state: 'running', step: 0 }, forecast(1, [{ ...first, id: 'pick', name: '' }]))).toEqual(['pick: running, 0:00:10.0 to 0:00:12.0', '1 more job not scheduled yet']);
+    expect(words({ state: 'queued', started_s: null, step: 0 }, forecast(1))).toEqual(['1 more job not scheduled yet']);
   });
 
   it('are described soonest first, jobs without times last', () => {

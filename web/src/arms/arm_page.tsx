@@ -5,6 +5,7 @@ import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
 import { JogPanel } from '../control/jog';
 import { AsOf } from '../frame/as_of';
+import { step_in_words } from '../jobs/steps';
 import { when_in_words } from '../jobs/when';
 import { Link } from '../route/link';
 import { Plot, units_of } from '../plot/plot';
@@ -21,7 +22,7 @@ import { lane_in_words } from '../timeline/mark_words';
 import { short_names, shown_name } from '../names';
 import { promises_in_words, reason_in_words, title_of } from '../wording';
 import { kText } from '../strings';
-import { ArmNotes, StatePill } from './arms';
+import { ArmNotes, Holds, StatePill } from './arms';
 
 const kWords = kText.arm;
 
@@ -34,7 +35,8 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? kText.common.not_connected : kWords.unknown}</p></>;
   const then = seen_app(app);
   const arm_then = then.store.arms.get(name) ?? arm;
-  const job = arm_then.job === null ? null : then.store.job(arm_then.job);
+  const job = then.store.job_of(arm_then);
+  const step = job && step_in_words(job, true);
   const waiting = then.store.arm_state(arm_then) === 'waiting' ? then.store.waiting_of(name) : null;
   const nothing = then.store.arm_state(arm_then) === 'not known' ? kWords.past_unknown : then === app ? kWords.no_active_job : kWords.no_job_was_active;
   const color = arm_color([...store.arms.keys()], name);
@@ -48,8 +50,9 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
       </div>
       <ArmNotes arm={arm_then} />
       <p class="hint">
-        {job ? <>{then === app ? kWords.executes : kWords.executed} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : waiting ? <>{kWords.next} <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
+        {job ? <>{then === app ? kWords.executes : kWords.executed} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link>{step !== null && `, ${step}`}</> : waiting ? <>{kWords.next} <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
       </p>
+      <Holds arm={name} app={then} in_sentence />
       <AsOf app={app}>{kWords.acts_now}</AsOf>
       <SendTo arm={arm} app={app} />
       <JogPanel arm={arm} app={app} />

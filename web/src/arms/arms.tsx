@@ -4,6 +4,8 @@ import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
 import { blocker_of } from '../jobs/blocker';
 import { Starves } from '../jobs/starves';
+import { StepBar } from '../jobs/step_list';
+import { place_of } from '../jobs/steps';
 import { turn_in_words } from '../jobs/when';
 import type { Arm, Job } from '../server/messages';
 import type { App } from '../state/app';
@@ -30,10 +32,11 @@ export function Arms({ app }: { app: App }) {
 function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   use_beats(app.store);
   const { store } = app;
-  const job = arm.job === null ? null : store.job(arm.job);
+  const job = store.job_of(arm);
   const waiting = !job && store.arm_state(arm) === 'waiting' ? store.waiting_of(arm.name) : null;
-  const held = waiting ?? (job?.state === 'paused' && job.waits_on.length > 0 ? job : null);
+  const blocked = waiting ?? (job?.state === 'paused' && job.waits_on.length > 0 ? job : null);
   const progress = job ? store.progress(job) : 0;
+  const at = job && job.steps !== undefined ? place_of(job) : null;
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
@@ -46,12 +49,13 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
         </span>
         <span class="line dim job-of-arm">
           {waiting ? <span class="grow ellipsis">{title_of(waiting)}</span> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? kText.arm.unknown_then : kText.arm.no_job}</span>}
-          <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
+          <span class={at === null ? 'mono' : 'whole'}>{at !== null ? kText.steps.place(at + 1, job?.steps?.length ?? 0) : job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
-        {!waiting && <Bar share={progress} />}
+        {!waiting && (at !== null && job ? <StepBar job={job} share={progress} /> : <Bar share={progress} />)}
       </Link>
       <ArmNotes arm={arm} />
-      {held && <Waiting job={held} app={app} />}
+      {blocked && <Waiting job={blocked} app={app} />}
+      <Holds arm={arm.name} app={app} />
       <SpeedSlider app={app} arm={arm.name} told={arm.speed_override ?? 1} effective={arm.effective_speed_override} />
     </div>
   );
@@ -64,9 +68,21 @@ function Waiting({ job, app }: { job: Job; app: App }) {
   const { behind, more } = until === '' ? turn : { behind: until, more: '' };
   const to = blocker_of(job) ?? { page: 'job', id: job.id };
   return (
-    <p class="waiting small" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>
+    <p class={`waiting small${more === '' ? ' alone' : ''}`} data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>
       <Link app={app} to={to} test="arm-waits-for">{behind}</Link>{more}
       <Starves job={job} />
+    </p>
+  );
+}
+
+/** Shows which objects an arm holds, with links to them. Shows nothing if it holds none. */
+export function Holds({ arm, app, in_sentence = false }: { arm: string; app: App; in_sentence?: boolean }) {
+  const objects = app.store.holds(arm);
+  if (objects.length === 0) return null;
+  return (
+    <p class="holds small" data-test="arm-holds">
+      {in_sentence ? kText.arm.holds_sentence : kText.arm.holds}{' '}
+      {objects.map((name, i) => <span key={name}>{i > 0 && ', '}<Link app={app} to={{ page: 'scene', name }}>{shown_name(name)}</Link></span>)}
     </p>
   );
 }

@@ -18,6 +18,7 @@ import { JobActions } from './actions';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
 import { Starves } from './starves';
+import { StepList } from './step_list';
 import { states_of, pause_in_words } from './states';
 import { when_in_words } from './when';
 import { shown_json, shown_name } from '../names';
@@ -52,6 +53,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       {words !== '' && <p class="words">{words}</p>}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <Starves job={job} />
+      {job.steps !== undefined && <StepList job={job} app={app} />}
       <States job={job} app={app} />
       {path_in_words(job).map((words) => <p key={words} class="hint" data-test="path">{words}</p>)}
       {looks_back ? null : former ? <p class="hint" data-test="former">{kWords.from_store}</p> : <Beside job={job} app={app} />}
@@ -85,7 +87,9 @@ function States({ job, app }: Props) {
           </li>
         ))}
       </ol>
-      <p class="hint">{kWords.trajectory(job.duration_s.toFixed(2), Math.round(100 * app.store.progress(job)), when)}</p>
+      {job.steps === undefined
+        ? <p class="hint">{kWords.trajectory(job.duration_s.toFixed(2), Math.round(100 * app.store.progress(job)), when)}</p>
+        : when !== '' && <p class="hint">{when}</p>}
     </>
   );
 }
@@ -133,7 +137,8 @@ function Beside({ job, app }: Props) {
 function Moves({ job, app }: Props) {
   const { store, motions } = app;
   motions.changes.value;  // draws the plot again when the trajectory arrives
-  const planned = motions.of(job);
+  // The server returns the trajectory of one motion; a job with steps has several.
+  const planned = job.steps === undefined ? motions.of(job) : null;
   const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
   const { first_s } = store.trace;
   const unseen = job.started_s !== null && (first_s === null || (job.ended_s !== null && job.ended_s < first_s));

@@ -13,6 +13,7 @@ import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, title_of } from '../wording';
 import { Starves } from './starves';
+import { StepBar, StepLine } from './step_list';
 import { Cancel, is_blocked_by_object, Urgency, waits, WaysOn } from './actions';
 import { known_end_of, step_of, turn_in_words, when_in_words } from './when';
 import { shown_name } from '../names';
@@ -46,6 +47,7 @@ export function Row({ job, app }: Props) {
           <Figure job={job} app={app} />
         </span>
         {job.name !== '' && <span class="id ellipsis" title={job.id}>{job.id}</span>}
+        <StepLine job={job} />
         {why === null && <Reason job={job} />}
         <Progress job={job} app={app} />
       </Link>
@@ -76,7 +78,9 @@ function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | nu
 
 function Progress({ job, app }: Props) {
   use_beats(app.store);
-  return job.state === 'running' || job.state === 'paused' ? <Bar share={app.store.progress(job)} /> : null;
+  if (job.state !== 'running' && job.state !== 'paused') return null;
+  const share = app.store.progress(job);
+  return job.steps === undefined ? <Bar share={share} /> : <StepBar job={job} share={share} />;
 }
 
 function Figure({ job, app }: Props) {

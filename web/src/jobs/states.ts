@@ -16,7 +16,9 @@ export type StateAt = readonly [name: string, t_s: number | null];
 export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
   const end: StateAt = [is_terminal(job) ? job.state : kText.job.ended, job.ended_s];
   const lasting = heard.filter(({ t_s }, i) => (heard[i + 1]?.t_s ?? Infinity) - t_s > kLeast_s);
-  const on_the_way = lasting.filter(({ state }) => state === 'stopped' || !is_terminal({ state }));
+  // A job with steps pauses and runs at each step, which the list of its steps shows.
+  const is_told = ({ state, t_s }: Change) => job.steps === undefined || job.started_s === null || state === 'stopped' || t_s < job.started_s;
+  const on_the_way = lasting.filter((change) => (change.state === 'stopped' || !is_terminal({ state: change.state })) && is_told(change));
   const started = job.started_s === null || !on_the_way.some(({ state }) => state === 'running');
   const steps: StateAt[] = on_the_way.map(({ state, t_s }) => [state, t_s]);
   if (started) steps.push([kText.job.started, job.started_s]);

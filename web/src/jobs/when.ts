@@ -11,10 +11,10 @@ const kWords = kText.figure;
 
 /**
  * Returns the step of the predicted timeline that belongs to a job. Null if it has none, or has ended
- * since the prediction.
+ * since the prediction, or has begun and has steps: the prediction has only its first motion.
  */
-export function step_of({ id, state }: Pick<Job, 'id' | 'state'>, forecast: Forecast | null): ForecastStep | null {
-  if (is_terminal({ state })) return null;
+export function step_of({ id, state, steps, started_s }: Pick<Job, 'id' | 'state' | 'steps' | 'started_s'>, forecast: Forecast | null): ForecastStep | null {
+  if (is_terminal({ state }) || (steps !== undefined && started_s !== null)) return null;
   return forecast?.arms.flatMap((lane) => lane.steps).find((known) => known.id === id) ?? null;
 }
 

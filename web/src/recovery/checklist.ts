@@ -14,7 +14,7 @@ export class Checklist {
   private of_: string | null = null;
   private readonly left_ = computed(() => kChecks.length - this.ticked_.value.size);
 
-  constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'events' | 'stream'>) {}
+  constructor(private readonly store_: Pick<Store, 'arms' | 'job_of' | 'events' | 'stream'>) {}
 
   /**
    * Clears the ticks after another stop, or when no arm is stopped any more. Must be called after

@@ -1,6 +1,6 @@
 // The Recovery page after a stop: the cause, the checklist, what each arm needs, and Resume.
 
-import { ArmNotes, StatePill } from '../arms/arms';
+import { ArmNotes, Holds, StatePill } from '../arms/arms';
 import { AsOf } from '../frame/as_of';
 import { Cancel } from '../jobs/actions';
 import { Link } from '../route/link';
@@ -73,7 +73,7 @@ function Checks({ app, needed }: { app: App; needed: readonly Arm[] }) {
 function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
   use_beats(app.store);
   const { store } = app;
-  const job = arm.job === null ? null : store.job(arm.job);
+  const job = store.job_of(arm);
   const next = store.next_of(arm.name);
   const its = job ?? next;
   const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store), next);
@@ -84,6 +84,7 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <ArmNotes arm={arm} />
       <p>{need.words}</p>
+      <Holds arm={arm.name} app={app} in_sentence />
       <div class="line">
         {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={why_no_resume !== null} title={why_no_resume ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>{kWords.resume_one(shown_name(arm.name))}</button>}
         {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? kWords.its_job : kWords.its_next_job}</Link>}

@@ -9,6 +9,7 @@ import { use_question } from '../frame/question';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
 import type { App } from '../state/app';
+import { arm_color } from '../state/palette';
 import { why_no_command } from '../state/permission';
 import { number_in_words } from '../wording';
 import { blank_form, edits_since, fault_of_name, fields_of, form_of, kKinds, kLongestName, object_of, with_edits, type Edits, type Kind } from './object_form';
@@ -18,29 +19,42 @@ import { kText } from '../strings';
 const kWords = kText.scene;
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
-  const { objects } = app.store;
+  const { objects, held } = app.store;
   const chosen = objects.find((object) => object.name === name) ?? null;
+  const chosen_held = held.find(({ object }) => object.name === name) ?? null;
   return (
     <div class="page">
-      <h2>{kText.page.scene}<span class="count">{objects.length}</span></h2>
+      <h2>{kText.page.scene}<span class="count">{objects.length + held.length}</span></h2>
       {app.router.address.value.t_s === null
         ? <p class="hint">{kWords.hint}</p>
         : <AsOf app={app}>{kWords.past}</AsOf>}
       <ul class="objects" data-test="objects">
-        {objects.map((object) => (
-          <li key={object.name} class={object.name === name ? 'selected' : ''}>
-            <Link app={app} to={{ page: 'scene', name: object.name }} class="open" current={object.name === name}>
-              <span class="ellipsis" title={shown_name(object.name)}>{shown_name(object.name)}</span><span class="dim small">{size_in_words(object)}</span>
-            </Link>
-          </li>
-        ))}
+        {objects.map((object) => <Entry key={object.name} object={object} arm={null} chosen={name} app={app} />)}
+        {held.map(({ object, arm }) => <Entry key={object.name} object={object} arm={arm} chosen={name} app={app} />)}
       </ul>
-      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
+      {chosen_held && <p class="hint" data-test="object-held">{kWords.held_sentence(shown_name(chosen_held.object.name), shown_name(chosen_held.arm), shown_name(chosen_held.link))}</p>}
+      {name !== null && !chosen && !chosen_held && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
       {chosen && app.router.address.value.t_s === null && <DragButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">{kWords.mesh}</p>
-        : <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}
+        : !chosen_held && <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}
     </div>
+  );
+}
+
+/** One object of the list. `arm` is the arm that holds it, or null. */
+function Entry({ object, arm, chosen, app }: { object: SceneObject; arm: string | null; chosen: string | null; app: App }) {
+  const arms = [...app.store.arms.keys()];
+  return (
+    <li class={object.name === chosen ? 'selected' : ''}>
+      <Link app={app} to={{ page: 'scene', name: object.name }} class="open" current={object.name === chosen}>
+        <span class="ellipsis" title={shown_name(object.name)}>{shown_name(object.name)}</span>
+        <span class="line">
+          {arm !== null && <span class="tag" data-test="held-by" style={{ '--arm': arm_color(arms, arm) }}>{kWords.held_by(shown_name(arm))}</span>}
+          <span class="dim small">{size_in_words(object)}</span>
+        </span>
+      </Link>
+    </li>
   );
 }
 

@@ -3,8 +3,8 @@
 import { cut_text } from '../names';
 import { kText } from '../strings';
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_faults, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type SignalValue, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_fault, parse_faults, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_scene, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Fault, type FaultRequest, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type Scene, type SceneObject, type Session, type SignalValue, type Verdict,
 } from './messages';
 
 const kAnswers = kText.server.answers;
@@ -28,6 +28,10 @@ export class Api {
 
   async cell(): Promise<Answer<Cell>> {
     return checked(kAnswers.cell, await this.ask('GET', '/cell'), parse_cell);
+  }
+
+  async scene(): Promise<Answer<Scene>> {
+    return checked(kAnswers.scene, await this.ask('GET', '/scene'), parse_scene);
   }
 
   async job(id: string): Promise<Answer<Job>> {

@@ -15,7 +15,13 @@ export type Arm = Schemas['Arm'];
 /** A reason to wait. Each of its times counts from the start of that job's own trajectory. */
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];
+/** A step of a job. */
+export type Step = Schemas['Step'];
 export type SceneObject = Schemas['Object'];
+/** An object that an arm holds. Its pose is in the frame of `link`. */
+export type HeldObject = Schemas['HeldObject'];
+/** The objects of the scene, and those that arms hold. */
+export type Scene = Schemas['Scene'];
 /** An input or output of the cell. */
 export type Signal = Schemas['Signal'];
 export type SignalValue = NonNullable<Signal['value']>;
@@ -138,12 +144,20 @@ export function parse_message(text: string): ParsedMessage {
       stream: typeof stream === 'string' ? stream : null, seq: typeof seq === 'number' ? seq : null,
     };
   }
+  if (type === 'scene') add_held(root);
   const checked = check(schema as 'JobEvent', root);
   return checked.ok ? { kind: 'message', message: checked.value } : { kind: 'malformed', fault: checked.fault };
 }
 
+/** Adds an empty list of held objects to a scene event of an old recording, which has none. */
+function add_held(root: unknown): void {
+  const { data } = root as { data?: Record<string, unknown> | null };
+  if (typeof data === 'object' && data !== null) data['held'] ??= [];
+}
+
 export const parse_cell = (value: unknown): Parsed<Cell> => check('Cell', value);
 export const parse_job = (value: unknown): Parsed<Job> => check('Job', value);
+export const parse_scene = (value: unknown): Parsed<Scene> => check('Scene', value);
 export const parse_job_page = (value: unknown): Parsed<JobPage> => check('JobPage', value);
 export const parse_diagram = (value: unknown): Parsed<Diagram> => check('Diagram', value);
 export const parse_forecast = (value: unknown): Parsed<Forecast> => check('Timeline', value);

@@ -1,7 +1,7 @@
 // The state that follows from the server's events, which are live or replayed: arms, jobs, objects,
 // reports. Of the poses it has only those in snapshots.
 
-import type { Arm, Job, SceneObject, SequencedMessage, Signal } from '../server/messages';
+import type { Arm, HeldObject, Job, SceneObject, SequencedMessage, Signal } from '../server/messages';
 import { kText } from '../strings';
 import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
@@ -31,6 +31,8 @@ export class Facts {
    * draw them again.
    */
   objects: SceneObject[] = [];
+  /** The objects that arms hold. They are not in `objects`. Each change is a new array. */
+  held: HeldObject[] = [];
   /** The inputs and outputs, in the order of the cell file. */
   signals: Signal[] = [];
   arms = new Map<string, Arm>();
@@ -78,6 +80,7 @@ export class Facts {
         break;
       case 'scene':
         this.objects = message.data.objects;
+        this.held = message.data.held;
         break;
       case 'io':
         this.signals = this.signals.map((known) => (known.name === message.data.name ? message.data : known));
@@ -111,9 +114,11 @@ export class Facts {
 
   /**
    * Returns the progress of a job (0 to 1): the last reported progress, extrapolated while the job
-   * runs.
+   * runs. For a job with steps it is the share of the steps, because the server does not know how
+   * long motions take that are not planned yet.
    */
   progress(job: Job): number {
+    if (job.steps !== undefined) return share_of_steps(job);
     const heard_s = this.book.heard_at(job.id);
     const moves = job.state === 'running' && !this.arms_of(job).some((arm) => kAtRest.has(this.arm_state(arm)));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
@@ -131,6 +136,20 @@ export class Facts {
   /** Returns true if the job brakes. This is unknown, and false, if the link to an arm is lost. */
   is_braking(job: Job): boolean {
     return job.stopping && !this.arms_of(job).some(({ link }) => link === 'lost');
+  }
+
+  /**
+   * Returns the job that has begun on an arm, or null. Between two motions of a job with steps the
+   * arm itself names no job.
+   */
+  job_of({ name, job }: Pick<Arm, 'name' | 'job'>): Job | null {
+    if (job !== null) return this.job(job);
+    return this.jobs('running').find(({ steps, arms }) => steps !== undefined && arms.includes(name)) ?? null;
+  }
+
+  /** Returns the names of the objects that an arm holds. */
+  holds(arm: string): string[] {
+    return this.held.filter((one) => one.arm === arm).map(({ object }) => object.name);
   }
 
   /** Returns the arm's next job that has not started, or null. */
@@ -185,6 +204,8 @@ export class Facts {
     this.stopped = data.stopped;
     this.speed_override = data.speed_override ?? 1;
     this.objects = data.objects;
+    // Until the page has asked for them, the held objects of this session are taken as before.
+    this.held = data.held ?? (same_run ? this.held.filter(({ object }) => data.objects.every(({ name }) => name !== object.name)) : []);
     this.signals = data.io ?? [];
     // In a past state, arms that the snapshot does not contain stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
@@ -202,4 +223,10 @@ export class Facts {
       if (angle !== undefined) this.q[joint] = angle;
     });
   }
+}
+
+/** Returns the share of a job's steps that are done, with the progress of the present motion. */
+function share_of_steps({ steps = [], step, result }: Job): number {
+  const at = step ?? result?.step ?? steps.length;
+  return steps.length === 0 ? 0 : (at + (steps[at]?.progress ?? 0)) / steps.length;
 }

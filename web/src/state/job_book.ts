@@ -32,6 +32,9 @@ export interface Pause { from_s: number; to_s: number | null; stopped: boolean; 
 /** A change of a job's state. `stopped` means that the job is at rest until its arm is resumed. */
 export interface Change { state: JobState | 'stopped'; t_s: number }
 
+/** The cell time at which a step of a job became the present step. */
+export interface StepChange { step: number; t_s: number }
+
 interface Heard {
   job: Job;
   /** Cell time of the last message about the job. */
@@ -43,6 +46,8 @@ interface Heard {
   pauses: Pause[];
   /** The state changes since the page was connected. */
   changes: Change[];
+  /** The changes of the present step since the page was connected, if the job has steps. */
+  steps: StepChange[];
 }
 
 export class JobBook {
@@ -68,8 +73,10 @@ export class JobBook {
       const known = before.get(job.id);
       const same_state = known?.job.state === job.state;
       const pauses = known?.pauses ?? [];
+      const steps = known?.steps ?? [];
       note_pause(pauses, job, t_s);
-      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses, changes: known?.changes ?? [] }];
+      note_step(steps, known?.job, job, t_s);
+      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses, changes: known?.changes ?? [], steps }];
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
@@ -79,13 +86,13 @@ export class JobBook {
   }
 
   /**
-   * Takes the pauses, the changes and the times of states from a book that has read more of the
+   * Takes the pauses, the changes, the steps and the times of states from a book that has read more of the
    * session's events than this book, up to the same event.
    */
   learn_history(longer: JobBook): void {
     for (const [id, heard] of this.heard_) {
       const other = longer.heard_.get(id);
-      if (other) this.heard_.set(id, { ...heard, since_s: other.since_s, pauses: other.pauses, changes: other.changes });
+      if (other) this.heard_.set(id, { ...heard, since_s: other.since_s, pauses: other.pauses, changes: other.changes, steps: other.steps });
     }
     this.endings_ += 1;
   }
@@ -97,8 +104,10 @@ export class JobBook {
     const changes = known?.changes ?? [];
     const shown = shown_state(job);
     if (changes.at(-1)?.state !== shown && (!same_state || shown_state(known.job) !== shown)) remember(changes, { state: shown, t_s });
+    const steps = known?.steps ?? [];
     note_pause(pauses, job, t_s);
-    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, pauses, changes });
+    note_step(steps, known?.job, job, t_s);
+    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, pauses, changes, steps });
     if (known && is_terminal(known.job)) {
       this.ended_ = this.ended_.filter((one) => one.id !== job.id);
       this.endings_ += 1;
@@ -115,6 +124,7 @@ export class JobBook {
   refresh(job: Job, t_s: number): boolean {
     const known = this.heard_.get(job.id);
     if (!known || known.job.state !== job.state || is_terminal(known.job)) return false;
+    note_step(known.steps, known.job, job, t_s);
     this.heard_.set(job.id, { ...known, job, t_s });
     this.lists_ = null;
     return true;
@@ -150,6 +160,11 @@ export class JobBook {
 
   pauses(id: string): readonly Pause[] {
     return this.heard_.get(id)?.pauses ?? [];
+  }
+
+  /** Returns when each step of a job began, as far as the page knows. */
+  steps(id: string): readonly StepChange[] {
+    return this.heard_.get(id)?.steps ?? [];
   }
 
   all(): Job[] {
@@ -267,6 +282,16 @@ function note_pause(pauses: Pause[], job: Job, t_s: number): void {
   }
   if (open) open.to_s = job.ended_s ?? t_s;
   if (job.state === 'paused') remember(pauses, { from_s: t_s, to_s: null, stopped, why });
+}
+
+/**
+ * Records that a job has begun, or has another present step. If nothing was known of the job
+ * before, the time at which its present step began is not known.
+ */
+function note_step(steps: StepChange[], known: Job | undefined, job: Job, t_s: number): void {
+  if (job.step === undefined || job.started_s === null || known === undefined) return;
+  if (known.started_s === null) remember(steps, { step: job.step, t_s: job.started_s });
+  else if (known.step !== job.step) remember(steps, { step: job.step, t_s });
 }
 
 export function remember<T>(list: T[], one: T): void {

@@ -20,8 +20,8 @@ export class Log {
   get entries(): readonly SequencedMessage[] { return this.entries_; }
 
   /**
-   * A number that changes when earlier entries are inserted or removed, so that counts of entries
-   * become invalid.
+   * A number that changes when earlier entries are inserted, changed or removed, so that what was
+   * derived from them becomes invalid.
    */
   get turn(): number { return this.turn_; }
 
@@ -34,6 +34,12 @@ export class Log {
   /** Inserts events before all others. */
   put_before(messages: readonly SequencedMessage[]): void {
     this.entries_ = [...messages, ...this.entries_];
+    this.turn_ += 1;
+  }
+
+  /** Replaces each entry by what `change` returns. */
+  amend(change: (entry: SequencedMessage) => SequencedMessage): void {
+    this.entries_ = this.entries_.map(change);
     this.turn_ += 1;
   }
 

@@ -1,7 +1,7 @@
 // Colors that have a meaning. They are custom properties in style/tokens.css, one set for each
 // theme. Elements use `var(--…)`. Canvases and the 3D view read them with `ink`.
 
-import type { CellState } from '../server/messages';
+import type { CellState, Step } from '../server/messages';
 import type { ShownState } from './shown_state';
 
 const kArmColors = 8;
@@ -22,6 +22,9 @@ export const kStateColors: Record<ShownState, string> = {
 export const kStateGlyphs: Record<ShownState, string> = {
   idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'link lost': '⊘', connecting: '…', 'not known': '?',
 };
+
+/** A glyph for the state of each step of a job. */
+export const kStepGlyphs: Record<Step['state'], string> = { waiting: '○', running: '▶', done: '✓', failed: '✕' };
 
 /** Returns the color of an arm. It depends on the place of the arm in the cell's list. */
 export function arm_color(arms: readonly string[], arm: string): string {

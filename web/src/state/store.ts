@@ -3,12 +3,12 @@
 // of state/pulse.ts.
 
 import type { Link } from '../server/connection';
-import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
+import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, Scene, SequencedMessage, StateMessage } from '../server/messages';
 import { Facts } from './facts';
 import { Log } from './log';
 import { ProgressBook, progress_at } from './progress_book';
 import { from_now, Pulse } from './pulse';
-import { at_rest, before_all, beginning_of, folded } from './snapshots';
+import { at_rest, before_all, beginning_of, folded, with_held, type Snapshot } from './snapshots';
 import { Trace } from './trace';
 
 /** The joint positions of a recording. */
@@ -153,6 +153,7 @@ export class Store extends Facts {
     this.t_s = 0;
     this.stopped = false;
     this.restart = null;
+    this.held = [];
     this.clearance = [];
     this.motions = [];
     this.forecast = null;
@@ -233,6 +234,18 @@ export class Store extends Facts {
   look_at(t_s: number): void {
     this.t_s = this.moment_s_ = t_s;
     this.pulse_.beat();
+  }
+
+  /**
+   * Takes the held objects of GET /scene, because the server's snapshots do not have them. Scene
+   * events after the snapshot have them, and are newer.
+   */
+  take_scene({ held }: Scene, of: Pick<Snapshot, 'stream' | 'seq'>): void {
+    const { entries } = this.log;
+    if (of.stream !== this.stream || entries.some(({ type, seq }) => type === 'scene' && seq > of.seq)) return;
+    this.log.amend((entry) => (entry.type === 'snapshot' ? with_held(entry, held) : entry));
+    this.held = held;
+    this.pulse_.change();
   }
 
   set_cell(cell: Cell): void {
@@ -324,7 +337,8 @@ export class Store extends Facts {
     this.motions = frame.motions;
     this.trace.push(frame.t_s, frame.q);
     this.put_in_earlier_states();
-    this.courses.take(frame.t_s, frame.motions);
+    // Each motion of a job with steps begins at 0 again, so it has no course.
+    this.courses.take(frame.t_s, frame.motions.filter(({ job }) => this.job(job)?.steps === undefined));
     this.pulse_.frame(() => { this.moment_s_ = this.t_s; });
     if (frame.speed === this.speed) return;
     this.speed = frame.speed;

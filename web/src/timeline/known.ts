@@ -4,7 +4,7 @@
 
 import type { App } from '../state/app';
 import type { Store } from '../state/store';
-import { lanes_of, pasts_of, type Lane, type Past } from './lanes';
+import { lanes_of, pasts_of, type Known, type Lane, type Past } from './lanes';
 
 // Ended jobs are read from this much before the shown range. The end of such a job can determine
 // since when its arm waits.
@@ -17,11 +17,14 @@ const kept = new WeakMap<Store, Kept>();
 /** Returns the lanes for the times from `from_s` on. They may also contain earlier marks. */
 export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
   const { book } = store;
-  const pauses = (id: string) => book.pauses(id);
   return lanes_of({
-    arms: [...store.arms.keys()], jobs: book.open, pasts: pasts_since(store, from_s - kBefore_s), pauses, has_ended: (id) => book.has_ended(id),
+    arms: [...store.arms.keys()], jobs: book.open, pasts: pasts_since(store, from_s - kBefore_s), ...history_of(store), has_ended: (id) => book.has_ended(id),
     forecast: store.forecast, now_s: store.t_s,
   });
+}
+
+function history_of({ book }: Store): Pick<Known, 'pauses' | 'steps'> {
+  return { pauses: (id) => book.pauses(id), steps: (id) => book.steps(id) };
 }
 
 function pasts_since(store: Store, from_s: number): ReadonlyMap<string, Past> {
@@ -29,7 +32,7 @@ function pasts_since(store: Store, from_s: number): ReadonlyMap<string, Past> {
   const of = [arms, book.endings];
   const known = kept.get(store);
   if (known && known.from_s <= from_s && known.of.every((one, i) => one === of[i])) return known.pasts;
-  const pasts = pasts_of([...arms.keys()], book.ended_since(from_s), (id) => book.pauses(id));
+  const pasts = pasts_of([...arms.keys()], book.ended_since(from_s), history_of(store));
   kept.set(store, { of, from_s, pasts });
   return pasts;
 }

@@ -2,11 +2,16 @@
 // pause or a wait in it. Past motions have the times of their jobs, future motions the times that
 // the server predicts. Pure. Times are cell time.
 //
+// A job with steps has a motion for each step that moves the arm.
+//
 // An arm waits if its next job is submitted and its previous job has ended. The wait lasts until
 // the next job starts. Later jobs only wait their turn and are not shown.
 
 import type { Forecast, ForecastStep, Job, WaitsOn } from '../server/messages';
-import type { Pause } from '../state/job_book';
+import { title_of_step } from '../jobs/steps';
+import type { Pause, StepChange } from '../state/job_book';
+import { kText } from '../strings';
+import { title_of } from '../wording';
 
 /** The job or arm that a job waits for. */
 export interface WaitedFor { job: string | null; arm: string | null }
@@ -29,8 +34,10 @@ export interface Mark {
 export interface Lane {
   arm: string;
   marks: Mark[];
-  /** The number of the arm's jobs that have no predicted times. */
+  /** The number of the arm's jobs that have not begun and have no predicted times. */
   waiting: number;
+  /** The jobs that have begun and have no predicted times: jobs with steps, after the first motion. */
+  unpredicted: readonly Job[];
 }
 
 export interface Known {
@@ -39,6 +46,8 @@ export interface Known {
   jobs: readonly Job[];
   pasts: ReadonlyMap<string, Past>;
   pauses(job: string): readonly Pause[];
+  /** When each step of a job began, as far as the page knows. */
+  steps(job: string): readonly StepChange[];
   has_ended(job: string): boolean;
   forecast: Forecast | null;
   now_s: number;
@@ -53,23 +62,28 @@ export interface Past { marks: readonly Mark[]; free_from_s: number }
 const kNoPast: Past = { marks: [], free_from_s: 0 };
 const kLeastWait_s = 0.15;
 
-export function pasts_of(arms: readonly string[], ended: readonly Job[], pauses: Known['pauses']): Map<string, Past> {
-  return new Map([...by_arm(arms, ended)].map(([arm, jobs]) => [arm, done_of(jobs, kNoPast, Infinity, pauses)]));
+/** The known history of jobs. */
+type History = Pick<Known, 'pauses' | 'steps'>;
+
+export function pasts_of(arms: readonly string[], ended: readonly Job[], history: History): Map<string, Past> {
+  return new Map([...by_arm(arms, ended)].map(([arm, jobs]) => [arm, done_of(arm, jobs, kNoPast, Infinity, history)]));
 }
 
 export function lanes_of(known: Known): Lane[] {
-  const { now_s, pasts, pauses } = known;
+  const { now_s, pasts } = known;
   const of_arm = by_arm(known.arms, known.jobs);
   return known.arms.map((arm) => {
     const expected = known.forecast?.arms.find((lane) => lane.name === arm);
     const jobs = of_arm.get(arm) ?? [];
-    const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, pauses);
+    const done = done_of(arm, jobs, pasts.get(arm) ?? kNoPast, now_s, known);
     const steps = (expected?.steps ?? []).filter((step) => !known.has_ended(step.id));
     const timed = until_endless(steps);
+    const unpredicted = jobs.filter(({ id, steps: of, started_s }) => of !== undefined && started_s !== null && steps.every((step) => step.id !== id));
     return {
       arm,
       marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...timed.flatMap((step) => future_of(step, now_s))],
-      waiting: (expected?.waiting ?? 0) + steps.length - timed.length,
+      waiting: Math.max(0, (expected?.waiting ?? 0) - unpredicted.length) + steps.length - timed.length,
+      unpredicted,
     };
   });
 }
@@ -91,9 +105,9 @@ function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[
 
 /**
  * Returns `past` with the marks of the started jobs added. Each started job has a mark for its
- * motion and one for the wait before it.
+ * motion, or for each of its motions, and one for the wait before it.
  */
-function done_of(jobs: readonly Job[], past: Past, now_s: number, pauses: Known['pauses']): Past {
+function done_of(arm: string, jobs: readonly Job[], past: Past, now_s: number, { pauses, steps }: History): Past {
   const marks: Mark[] = [...past.marks];
   const begun = jobs.filter((job) => job.started_s !== null).sort((a, b) => (a.started_s ?? 0) - (b.started_s ?? 0));
   let { free_from_s } = past;
@@ -102,13 +116,31 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, pauses: Known[
     const could_s = Math.max(free_from_s, job.submitted_s);
     if (start_s - could_s > kLeastWait_s) marks.push(mark('wait', job, could_s, start_s, null));
     const end_s = job.ended_s ?? now_s;
-    marks.push(mark('motion', job, start_s, end_s, null));
+    marks.push(...motions_of(arm, job, start_s, end_s, steps(job.id)));
     for (const { from_s, to_s, stopped, why } of pauses(job.id)) {
       marks.push({ ...mark('pause', job, from_s, to_s ?? end_s, to_s === null ? job.waits_on[0] ?? null : why), stopped });
     }
     free_from_s = Math.max(free_from_s, end_s);
   }
   return { marks, free_from_s };
+}
+
+/**
+ * Returns one mark for the motion of a job. If the job has steps, returns one for each step that
+ * moves the arm. The time before the first known step is one mark.
+ */
+function motions_of(arm: string, job: Job, start_s: number, end_s: number, begun: readonly StepChange[]): Mark[] {
+  const first_s = begun[0]?.t_s ?? end_s;
+  const unknown = begun.length === 0 || first_s > start_s ? [mark('motion', job, start_s, first_s, null)] : [];
+  const known = begun.map(({ step, t_s }, i) => ({ step: job.steps?.[step], from_s: t_s, to_s: begun[i + 1]?.t_s ?? end_s, is_present: i === begun.length - 1 }));
+  const moved = known.filter(({ step, from_s, to_s }) => step !== undefined && step.arms.length > 0 && to_s > from_s);
+  return [...unknown, ...moved.flatMap(({ step, from_s, to_s, is_present }, i) => {
+    if (!step?.arms.includes(arm)) return [];
+    const label = kText.steps.of_job(title_of(job), title_of_step(step));
+    // A job that fails at an action has failed after its last motion.
+    const has_state = is_present || (job.ended_s !== null && i === moved.length - 1);
+    return [{ ...mark('motion', job, from_s, to_s, null), label, state: has_state ? job.state : 'succeeded' as const }];
+  })];
 }
 
 /** Returns the wait of the first job that has not started, if the arm waits for it. */

@@ -1,6 +1,7 @@
 // The timeline as text, for the tooltip and for screen readers.
 
-import { clock, seconds, short_id, wait_in_words } from '../wording';
+import { step_in_words } from '../jobs/steps';
+import { clock, seconds, short_id, title_of, wait_in_words } from '../wording';
 import type { Lane, Mark } from './lanes';
 import { shown_name } from '../names';
 import { kText } from '../strings';
@@ -27,6 +28,7 @@ function expectation(mark: Mark): string {
 export function lane_in_words(lane: Lane, now_s: number): string[] {
   const expected = lane.marks.filter((mark) => mark.expected).sort((a, b) => a.from_s - b.from_s);
   const words = expected.map((mark) => mark_in_words(mark, now_s));
+  words.unshift(...lane.unpredicted.map((job) => kWords.not_predicted(title_of(job), step_in_words(job, true) ?? '')));
   if (lane.waiting > 0) words.push(kWords.not_scheduled(lane.waiting));
   return words.length > 0 ? words : [kWords.nothing_planned];
 }

@@ -17,6 +17,7 @@ import { box_around_bases } from './framing';
 import { Ghosts } from './ghosts';
 import { DragHandles } from './drag_handles';
 import { ArmLabels } from './labels';
+import type { RobotModel } from './robot';
 import { Robots } from './robots';
 import { SceneObjects } from './scene_objects';
 import { Stage } from './stage';
@@ -61,14 +62,14 @@ export class CellView {
     this.robots_.group.visible = this.paths_.group.visible = false;  // hidden until a pose is known
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
-    this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
+    this.objects_ = new SceneObjects(this.shelf_, (arm, link) => this.robot_of(arm)?.link(link) ?? null, (arm) => arm_color([...store_.arms.keys()], arm), () => this.stage_.invalidate(true));
     this.ahead_ = new Ahead(app_);
     this.distances_ = new Distances(host_, (body) => this.drawn_of(body));
     this.stage_.scene.add(this.robots_.group, this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
     this.drag_handles_ = new DragHandles(this.stage_, (object) => this.put_dragged(object));
-    this.tool_ = new ToolGoal(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
+    this.tool_ = new ToolGoal(this.stage_, (arm, link) => this.robot_of(arm)?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [
@@ -136,6 +137,9 @@ export class CellView {
   private get seen_(): Store {
     return this.app_.seen.store.peek();
   }
+  private robot_of(arm: string): RobotModel | null {
+    return this.robots_.get(this.store_.arms.get(arm)?.robot);
+  }
   private get instant(): Instant {
     return instant_of(this.at_, this.store_);
   }
@@ -151,7 +155,7 @@ export class CellView {
   /** Returns the center of an object, px from the view's top left. */
   where_is(object: string): { x: number; y: number } | null {
     const found = this.objects_.find(object);
-    return found ? this.stage_.to_page(found.position) : null;
+    return found ? this.stage_.to_page(found.getWorldPosition(new THREE.Vector3())) : null;
   }
   /** Returns the center of the dragged tool goal, px from the view's top left. */
   where_is_tool(): { x: number; y: number } | null {
@@ -172,9 +176,9 @@ export class CellView {
 
   private follow(): void {
     const { cell } = this.store_;
-    const { objects, arms } = this.seen_;
+    const { objects, held, arms } = this.seen_;
     if (cell && cell !== this.cell_) this.build(cell);
-    this.objects_.show(objects);
+    this.objects_.show(objects, held);
     this.update_dragged();
     const states = [...arms.values()].map((arm) => `${arm.name} ${arm_in_words(arm, this.seen_)}`).join('\n');
     if (states !== this.states_) {
@@ -238,11 +242,15 @@ export class CellView {
     const box = box_around_bases(cell);
     if (box) this.stage_.frame(box);
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
-    if (addresses.length === 0) return this.add_robots(cell, new Map());
+    if (addresses.length === 0) {
+      this.add_robots(cell, new Map());
+      return this.objects_.renew();
+    }
     void this.shelf_.load(addresses).then((surfaces) => {
       if (this.cell_ !== cell) return;  // another cell is shown meanwhile
       this.add_robots(cell, surfaces);
       this.frame_robots(cell);
+      this.objects_.renew();
       this.follow();
     });
   }

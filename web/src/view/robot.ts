@@ -92,10 +92,15 @@ export class RobotModel {
    */
   frame_of(arm: string, link: string): THREE.Matrix4 | null {
     const last = this.arms_.find((one) => one.name === arm)?.joints.at(-1);
-    const own = link.startsWith(this.prefix_) ? link.slice(this.prefix_.length) : link;
-    const found = link === '' ? this.root.joints[(last ?? '').slice(this.prefix_.length)] : this.root.links[own] ?? this.root.links[link];
+    const found = link === '' ? this.root.joints[(last ?? '').slice(this.prefix_.length)] : this.link(link);
     found?.updateWorldMatrix(true, false);
     return found?.matrixWorld.clone() ?? null;
+  }
+
+  /** Returns a link, or null. `link` is the link's name with or without the prefix. */
+  link(link: string): THREE.Object3D | null {
+    const own = link.startsWith(this.prefix_) ? link.slice(this.prefix_.length) : link;
+    return this.root.links[own] ?? this.root.links[link] ?? null;
   }
 
   /** Returns the drawn mesh of a link. `link` is the link's name with the prefix. */
