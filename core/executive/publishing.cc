@@ -8,6 +8,15 @@
 #include "core/executive/task_view.h"
 
 namespace armloom {
+namespace {
+
+std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& links) {
+  std::vector<std::string> names;
+  for (const LinkId link : links) names.push_back(cell.link(link).name);
+  return names;
+}
+
+}  // namespace
 
 Publisher::Publisher(const Shown& shown, Observer& observer)
     : shown_(shown),
@@ -51,9 +60,15 @@ SceneView Publisher::scene() const {
   SceneView view{shown_.scene.version(), {scene, &scene->objects()}};
   for (const Attachment& held : scene->attachments()) {
     const Link& link = shown_.cell.link(held.link);
-    view.held.push_back({{held.object.name, held.object.shape, held.X_LO},
-                         link.name,
-                         shown_.cell.arm(*link.arm).name});
+    HeldView& shown =
+        view.held.emplace_back(HeldView{{held.object.name, held.object.shape, held.X_LO},
+                                        link.name,
+                                        shown_.cell.arm(*link.arm).name,
+                                        names_of(shown_.cell, held.touch)});
+    shown.touch.insert(shown.touch.end(), held.touch_objects.begin(), held.touch_objects.end());
+  }
+  for (const AllowedTouch& allowed : scene->touch()) {
+    view.touch.push_back({allowed.object, names_of(shown_.cell, allowed.links)});
   }
   return view;
 }
