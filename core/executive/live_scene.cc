@@ -220,7 +220,7 @@ Result<SceneEdited> LiveScene::apply(PreparedEdit& prepared) {
   if (!prepared.made) return failure(prepared.made.error());
   if (auto problem = object_in_arm(prepared)) return failure(std::move(*problem));
   std::swap(now_.scene, prepared.made->scene);
-  ++now_.version;
+  version_of_change_ = ++now_.version;
   told_.changed(*prepared.made->query);
   return SceneEdited{now_.version, std::holds_alternative<ObjectAdded>(prepared.edit),
                      std::move(prepared.made->removed)};

@@ -42,8 +42,10 @@ void Publisher::scene_has_changed(TimePoint now) {
 }
 
 void Publisher::tell_scene(TimePoint now) {
-  if (!scene_is_old_ || now < next_scene_) return;
+  const bool is_due = now >= next_scene_ || shown_.scene.version_of_change() > told_scene_;
+  if (!scene_is_old_ || !is_due) return;
   scene_is_old_ = false;
+  told_scene_ = shown_.scene.version();
   const std::size_t objects = shown_.scene.objects().size();
   next_scene_ =
       objects < kSmallScene ? now : now + static_cast<Duration::rep>(objects) * kForEachObject;
