@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// What the cell contains besides its links, from `time` on.
+// Contents of a cell besides its links, from `time` on.
 struct RecordedScene {
   TimePoint time{};
   std::vector<CollisionObject> objects;

@@ -1,4 +1,4 @@
-// What arms hold, and objects that change, in the crossing cell: ball x slides along x and ball y
+// Held objects, and objects that change, in the crossing cell: ball x slides along x and ball y
 // along y, both with a radius of 0.1 m.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -176,6 +176,25 @@ TEST(AuditScenes, AllowsTheHandButNoOtherLinkOfTheArm) {
   EXPECT_THAT(bodies_of(*met.first_contact), UnorderedElementsAre("a_link1", "part"));
   EXPECT_FALSE(report_at({0, 1.57, 1.57}, {0.3, 0.3, 0}, {*cell.find_link("a_link1")})
                    .first_contact.has_value());
+}
+
+TEST(AuditScenes, AllowsAllLinksOfTheHandAndWhatTheyHold) {
+  Cell cell;
+  const std::vector<Eigen::Vector3d> axes(3, Eigen::Vector3d::UnitZ());
+  small::add_robot(cell, "a", small::at_xyz(0, 0, 0), axes, {0.3, 0.03});
+  const LinkId finger = *cell.find_link("a_link3");
+  const LinkId palm = *cell.find_link("a_link2");
+  const RecordedScene scene{at(0ms),
+                            {},
+                            {held(ball("p", {0, 0, 0}), finger, {-0.05, 0, 0}),
+                             held(ball("q", {0, 0, 0}), palm, {0.25, 0.05, 0})}};
+  const auto touches = [&] {
+    return audit(cell, {{at(0ms), Eigen::Vector3d::Zero()}}, 1ms, {scene})
+        ->first_contact.has_value();
+  };
+  EXPECT_TRUE(touches());
+  cell.arms[0].gripper_joints = {*cell.link(finger).driver};
+  EXPECT_FALSE(touches());
 }
 
 TEST(AuditScenes, ChecksChangesDuringRest) {
