@@ -11,11 +11,28 @@ namespace {
 
 class Audit {
  public:
-  Audit(const Cell& cell, AuditedCell audited) : cell_(cell), audited_(std::move(audited)) {}
+  Audit(const Cell& cell, AuditedCell audited, const std::vector<RecordedScene>& scenes)
+      : cell_(cell), audited_(std::move(audited)), scenes_(scenes) {}
 
+  // Looks at each change of the scene since the last state, then at the state.
+  void go_to(TimePoint time, const Configuration& q) {
+    while (report_.states_checked > 0 && next_ < scenes_.size() && scenes_[next_].time < time) {
+      const TimePoint change = scenes_[next_].time;
+      const double share = to_seconds(change - last_time_) / to_seconds(time - last_time_);
+      look_at(change, last_q_ + share * (q - last_q_));
+    }
+    look_at(time, q);
+  }
+
+  [[nodiscard]] AuditReport report() && { return std::move(report_); }
+
+ private:
   void look_at(TimePoint time, const Configuration& q) {
+    const bool is_new_scene = change_scene(time);
+    const bool is_first = report_.states_checked == 0;
     ++report_.states_checked;
-    if (report_.states_checked > 1 && q == last_q_) return;  // same result as the last state
+    last_time_ = time;
+    if (!is_first && !is_new_scene && q == last_q_) return;  // same result as the last state
     last_q_ = q;
     audited_.move_to(cell_, q);
     for (AuditedPair& pair : audited_.pairs()) {
@@ -29,9 +46,15 @@ class Audit {
     }
   }
 
-  [[nodiscard]] AuditReport report() && { return std::move(report_); }
+  // Returns true if another scene holds at this time than at the last call.
+  bool change_scene(TimePoint time) {
+    const std::size_t before = next_;
+    while (next_ < scenes_.size() && scenes_[next_].time <= time) ++next_;
+    if (next_ == before) return false;
+    audited_.set_scene(cell_, scenes_[next_ - 1]);
+    return true;
+  }
 
- private:
   void note(TimePoint time, const AuditedPair& pair, double distance_m) {
     const AuditFinding finding{time, audited_.solid(pair.a).name, audited_.solid(pair.b).name,
                                distance_m};
@@ -43,13 +66,27 @@ class Audit {
 
   const Cell& cell_;
   AuditedCell audited_;
+  const std::vector<RecordedScene>& scenes_;
+  std::size_t next_ = 0;  // the first scene that does not hold yet
   AuditReport report_;
+  TimePoint last_time_{};
   Configuration last_q_;
   double smallest_m_ = std::numeric_limits<double>::infinity();
 };
 
-void check_preconditions(const Cell& cell, const std::vector<RecordedState>& states,
-                         Duration step) {
+void check_scenes(const Cell& cell, const std::vector<RecordedScene>& scenes) {
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (i > 0 && scenes[i].time < scenes[i - 1].time) {
+      throw std::invalid_argument("audit: times of scenes must not decrease");
+    }
+    for (const Attachment& held : scenes[i].held) {
+      if (held.link.index() < cell.links.size() && cell.link(held.link).arm) continue;
+      throw std::invalid_argument("audit: an arm must move the link of a held object");
+    }
+  }
+}
+
+void check_states(const Cell& cell, const std::vector<RecordedState>& states, Duration step) {
   if (step <= Duration::zero()) throw std::invalid_argument("audit: the step must be positive");
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (static_cast<std::size_t>(states[i].q.size()) != cell.joints.size()) {
@@ -63,9 +100,10 @@ void check_preconditions(const Cell& cell, const std::vector<RecordedState>& sta
 
 }  // namespace
 
-Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
-                          Duration step) {
-  check_preconditions(cell, states, step);
+Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states, Duration step,
+                          const std::vector<RecordedScene>& scenes) {
+  check_states(cell, states, step);
+  check_scenes(cell, scenes);
   for (const RecordedState& state : states) {
     if (state.q.allFinite()) continue;
     return failure(Problem{ProblemKind::invalid, "not-finite",
@@ -74,9 +112,12 @@ Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& st
   }
   auto audited = AuditedCell::build(cell);
   if (!audited) return failure(std::move(audited.error()));
+  Problems problems;
+  for (const RecordedScene& scene : scenes) find_unloaded_meshes(scene, problems);
+  if (!problems.empty()) return failure(std::move(problems));
 
-  Audit audit(cell, std::move(*audited));
-  if (!states.empty()) audit.look_at(states.front().time, states.front().q);
+  Audit audit(cell, std::move(*audited), scenes);
+  if (!states.empty()) audit.go_to(states.front().time, states.front().q);
   Configuration q;
   for (std::size_t i = 1; i < states.size(); ++i) {
     const RecordedState& from = states[i - 1];
@@ -86,10 +127,9 @@ Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& st
     for (std::int64_t k = 1; k < steps && !to.after_rest; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(steps);
       q = from.q + share * (to.q - from.q);
-      audit.look_at(from.time + Duration{std::llround(share * static_cast<double>(gap.count()))},
-                    q);
+      audit.go_to(from.time + Duration{std::llround(share * static_cast<double>(gap.count()))}, q);
     }
-    audit.look_at(to.time, to.q);
+    audit.go_to(to.time, to.q);
   }
   return std::move(audit).report();
 }

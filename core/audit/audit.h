@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/audit/recorded_scene.h"
 #include "core/base/problem.h"
 #include "core/base/time.h"
 #include "core/model/cell.h"
@@ -31,12 +32,25 @@ struct AuditReport {
 };
 
 // Re-checks recorded states with plain FCL. Shares only the model with admission: it has its own
-// FCL objects, one per collision element of the URDF. Joints are interpolated linearly between
-// states, in steps of at most `step`, except during rest. The smallest clearance is over all pairs
-// of arms, and of an arm and the scene or a static link. Pairs within one arm (Cell::is_own) are
-// checked only for contact. Precondition: every q has one entry per joint of the cell; times
-// increase.
+// FCL objects, one per collision element of the URDF.
+//
+// Joints are interpolated linearly between states, in steps of at most `step`, except during rest.
+// A change of the scene is checked at its time, too. Until the first scene, the cell's objects
+// hold. Of several scenes with the same time, the last one holds.
+//
+// Held objects move with their link. They are checked against everything except the hand that holds
+// them (hand_of), what that hand also holds, and what Attachment allows. Pairs that a scene allows
+// may touch only as long as the scene holds. Pairs of two static bodies are not checked.
+//
+// The smallest clearance is over all pairs of arms, and of an arm and the scene or a static link;
+// held objects are part of their arm. Pairs within one arm (Cell::is_own) are checked only for
+// contact.
+//
+// Preconditions: every q has one entry per joint of the cell; times of states increase; times of
+// scenes do not decrease; an arm moves each link that holds an object.
+// Problems: a position that is not finite, a mesh that has not been loaded.
 [[nodiscard]] Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
-                                        Duration step);
+                                        Duration step,
+                                        const std::vector<RecordedScene>& scenes = {});
 
 }  // namespace armloom

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
+
+#include "core/audit/touch_rules.h"
 
 namespace armloom {
 namespace {
@@ -17,24 +21,17 @@ constexpr double kDoubt_m = 1e-3;
 // this much above the relevant distance, so that the solids can travel as far before the next
 // look().
 constexpr double kLookAhead_m = 0.05;
+// Lower bound of a distance that has not been computed.
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
-  return std::any_of(shapes.begin(), shapes.end(), [](const PlacedShape& placed) {
-    const auto* mesh = std::get_if<Mesh>(&placed.shape);
-    return mesh != nullptr && mesh->data == nullptr;
-  });
+bool lacks_data(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh != nullptr && mesh->data == nullptr;
 }
 
-bool may_touch(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
-  if (!a.arm && !b.arm) return true;  // neither moves
-  if (!b.link) return cell.allowed.link_objects.count({*a.link, b.name}) > 0;
-  // Pairs that an SRDF only claims (claimed_pairs) are checked.
-  return cell.allowed.allows(*a.link, *b.link);
-}
-
-bool one_arm_only(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
-  if (!a.link || !b.link) return false;
-  return cell.is_own(*a.link, *b.link);
+void refuse_mesh(const std::string& name, Problems& problems) {
+  problems.push_back({ProblemKind::unsupported, "mesh-not-loaded", name,
+                      "the mesh of " + name + " has not been loaded"});
 }
 
 using Element = AuditedSolid::Element;
@@ -67,57 +64,7 @@ double distance_of(const Element& x, const Element& y, double most_m) {
   return std::min(distance, most_m);
 }
 
-}  // namespace
-
-Result<AuditedCell> AuditedCell::build(const Cell& cell) {
-  Problems problems;
-  AuditedCell audited;
-  const auto refuse_mesh = [&](const std::string& name) {
-    problems.push_back({ProblemKind::unsupported, "mesh-not-loaded", name,
-                        "the mesh of " + name + " has not been loaded"});
-  };
-  for (std::size_t i = 0; i < cell.links.size(); ++i) {
-    const Link& link = cell.links[i];
-    if (lacks_mesh(link.shapes)) {
-      refuse_mesh(link.name);
-      continue;
-    }
-    audited.add({link.name, LinkId{static_cast<std::uint32_t>(i)}, link.arm, {}}, link.shapes);
-  }
-  for (const CollisionObject& object : cell.objects) {
-    const std::vector<PlacedShape> shapes(1, {object.shape, Eigen::Isometry3d::Identity()});
-    if (lacks_mesh(shapes)) {
-      refuse_mesh(object.name);
-      continue;
-    }
-    AuditedSolid solid{object.name, std::nullopt, std::nullopt, {}};
-    solid.X_WL = object.X_WO;
-    audited.add(std::move(solid), shapes);
-  }
-  if (!problems.empty()) return failure(std::move(problems));
-
-  for (std::size_t a = 0; a < audited.solids_.size(); ++a) {
-    for (std::size_t b = a + 1; b < audited.solids_.size(); ++b) {
-      const AuditedSolid& first = audited.solids_[a];
-      const AuditedSolid& second = audited.solids_[b];
-      if (may_touch(cell, first, second)) continue;
-      audited.pairs_.push_back(
-          {a, b, one_arm_only(cell, first, second), -std::numeric_limits<double>::infinity(), 0.0});
-    }
-  }
-  return audited;
-}
-
-void AuditedCell::add(AuditedSolid solid, const std::vector<PlacedShape>& shapes) {
-  if (shapes.empty()) return;
-  for (const PlacedShape& placed : shapes) {
-    const Element& element = solid.elements.emplace_back(make_element(placed));
-    solid.radius_m = std::max(solid.radius_m, element.X_LS.translation().norm() + element.radius_m);
-  }
-  solids_.push_back(std::move(solid));
-}
-
-AuditedSolid::Element AuditedCell::make_element(const PlacedShape& placed) {
+Element make_element(const PlacedShape& placed) {
   if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
     auto audited = std::make_shared<const AuditedMesh>(*mesh->data);
     const Eigen::Isometry3d X_LC = placed.X_LS * Eigen::Translation3d(audited->p_SC());
@@ -137,21 +84,134 @@ AuditedSolid::Element AuditedCell::make_element(const PlacedShape& placed) {
           audited};
 }
 
+void add_elements(AuditedSolid& solid, const std::vector<PlacedShape>& shapes) {
+  for (const PlacedShape& placed : shapes) {
+    const Element& element = solid.elements.emplace_back(make_element(placed));
+    solid.radius_m = std::max(solid.radius_m, element.X_LS.translation().norm() + element.radius_m);
+  }
+}
+
+bool one_arm_only(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
+  return a.carrier && b.carrier && cell.is_own(*a.carrier, *b.carrier);
+}
+
+}  // namespace
+
+void find_unloaded_meshes(const RecordedScene& scene, Problems& problems) {
+  for (const CollisionObject& object : scene.objects) {
+    if (lacks_data(object.shape)) refuse_mesh(object.name, problems);
+  }
+  for (const Attachment& held : scene.held) {
+    if (lacks_data(held.object.shape)) refuse_mesh(held.object.name, problems);
+  }
+}
+
+Result<AuditedCell> AuditedCell::build(const Cell& cell) {
+  Problems problems;
+  AuditedCell audited;
+  for (std::size_t i = 0; i < cell.links.size(); ++i) {
+    const Link& link = cell.links[i];
+    if (std::ranges::any_of(link.shapes, lacks_data, &PlacedShape::shape)) {
+      refuse_mesh(link.name, problems);
+      continue;
+    }
+    if (link.shapes.empty()) continue;
+    const LinkId id{static_cast<std::uint32_t>(i)};
+    AuditedSolid& solid = audited.solids_.emplace_back();
+    solid.name = link.name;
+    solid.link = solid.carrier = id;
+    solid.arm = link.arm;
+    add_elements(solid, link.shapes);
+  }
+  const RecordedScene first{.objects = cell.objects};
+  find_unloaded_meshes(first, problems);
+  if (!problems.empty()) return failure(std::move(problems));
+
+  audited.links_end_ = audited.solids_.size();
+  audited.move_to(cell, cell.home());
+  audited.set_scene(cell, first);
+  return audited;
+}
+
+void AuditedCell::set_scene(const Cell& cell, const RecordedScene& scene) {
+  const std::vector<Place> places_before = replace_objects(cell, scene);
+  replace_pairs(cell, scene, places_before);
+}
+
+std::vector<AuditedCell::Place> AuditedCell::replace_objects(const Cell& cell,
+                                                             const RecordedScene& scene) {
+  std::map<std::string, Place> places;  // of the objects before, by name
+  for (Place i = links_end_; i < solids_.size(); ++i) places.emplace(solids_[i].name, i);
+  std::vector<Place> places_before;
+  for (Place i = 0; i < links_end_; ++i) places_before.push_back(i);
+  std::vector<AuditedSolid> objects;
+  const auto add = [&](const CollisionObject& object, const Eigen::Isometry3d& X_CO,
+                       std::optional<LinkId> carrier) {
+    const auto before = places.find(object.name);
+    if (before != places.end() && solids_[before->second].shape == object.shape) {
+      places_before.push_back(before->second);
+      objects.push_back(std::move(solids_[before->second]));
+      places.erase(before);
+    } else {
+      places_before.push_back(kNew);
+      AuditedSolid& solid = objects.emplace_back();
+      solid.name = object.name;
+      solid.shape = object.shape;
+      add_elements(solid, {{object.shape, Eigen::Isometry3d::Identity()}});
+    }
+    AuditedSolid& solid = objects.back();
+    solid.carrier = carrier;
+    solid.arm = carrier ? cell.link(*carrier).arm : std::nullopt;
+    solid.X_CL = X_CO;
+    move(solid);
+  };
+  for (const CollisionObject& object : scene.objects) add(object, object.X_WO, std::nullopt);
+  for (const Attachment& held : scene.held) add(held.object, held.X_LO, held.link);
+  solids_.resize(links_end_);
+  std::ranges::move(objects, std::back_inserter(solids_));
+  return places_before;
+}
+
+void AuditedCell::replace_pairs(const Cell& cell, const RecordedScene& scene,
+                                const std::vector<Place>& places_before) {
+  using Places = std::pair<Place, Place>;
+  const auto places_of = [](const AuditedPair& pair) { return Places(pair.a, pair.b); };
+  const TouchRules rules(cell, scene);
+  const std::vector<AuditedPair> before = std::exchange(pairs_, {});
+  for (Place a = 0; a < solids_.size(); ++a) {
+    for (Place b = a + 1; b < solids_.size(); ++b) {
+      const AuditedSolid& first = solids_[a];
+      const AuditedSolid& second = solids_[b];
+      const bool is_static = !first.arm && !second.arm;
+      if (is_static || rules.may_touch(first, second)) continue;
+      AuditedPair& pair =
+          pairs_.emplace_back(AuditedPair{a, b, one_arm_only(cell, first, second), kUnknown, 0.0});
+      const Places then = std::minmax(places_before[a], places_before[b]);
+      const auto same = std::ranges::lower_bound(before, then, {}, places_of);
+      if (same == before.end() || places_of(*same) != then) continue;
+      pair.distance_then_m = same->distance_then_m;
+      pair.travel_then_m = same->travel_then_m;
+    }
+  }
+}
+
 void AuditedCell::move_to(const Cell& cell, const Configuration& q) {
   forward_kinematics(cell, q, X_WL_);
   for (AuditedSolid& solid : solids_) {
-    if (!solid.link) continue;
-    const Eigen::Isometry3d& X_WL = X_WL_[solid.link->index()];
-    if (moved_once_) {
-      // Bounds |(R' - R) p + (t' - t)| for every p within radius_m.
-      const double shift = (X_WL.translation() - solid.X_WL.translation()).norm();
-      const double turn = (X_WL.linear() - solid.X_WL.linear()).norm();
-      solid.travel_m += shift + turn * solid.radius_m;
-    }
-    solid.X_WL = X_WL;
-    solid.elements_placed = false;
+    if (solid.carrier) move(solid);
   }
-  moved_once_ = true;
+}
+
+// Moves the solid to where its carrier is.
+void AuditedCell::move(AuditedSolid& solid) const {
+  const Eigen::Isometry3d X_WL =
+      solid.carrier ? X_WL_[solid.carrier->index()] * solid.X_CL : solid.X_CL;
+  // Bounds |(R' - R) p + (t' - t)| for every p within radius_m.
+  const double shift = (X_WL.translation() - solid.X_WL.translation()).norm();
+  const double turn = (X_WL.linear() - solid.X_WL.linear()).norm();
+  solid.travel_m += shift + turn * solid.radius_m;
+  solid.X_WL = X_WL;
+  solid.elements_placed = false;
 }
 
 double AuditedCell::at_least(const AuditedPair& pair) const {

@@ -11,13 +11,14 @@
 
 #include "core/audit/audited_mesh.h"
 #include "core/audit/audited_primitive.h"
+#include "core/audit/recorded_scene.h"
 #include "core/base/problem.h"
 #include "core/model/cell.h"
 #include "core/model/kinematics.h"
 
 namespace armloom {
 
-// A link or object: one FCL object per collision element.
+// A link, an object of the scene or a held object: one FCL object per collision element.
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd surface;  // triangles
@@ -29,13 +30,19 @@ struct AuditedSolid {
     std::shared_ptr<const AuditedPrimitive> primitive;
   };
   std::string name;
-  std::optional<LinkId> link;  // nullopt if an object
-  std::optional<ArmId> arm;    // nullopt if stationary
+  std::optional<LinkId> link;     // nullopt if an object
+  std::optional<LinkId> carrier;  // `link`, or the link that holds the object
+  std::optional<ArmId> arm;       // nullopt if stationary
+  std::optional<Shape> shape;     // of an object
+  // Pose in the carrier's frame C (identity for a link), or in the world if there is no carrier.
+  Eigen::Isometry3d X_CL = Eigen::Isometry3d::Identity();
   std::vector<Element> elements;
   double radius_m = 0.0;  // bounding sphere about the link's origin
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
   double travel_m = 0.0;         // upper bound of the path length of each of its points so far
   bool elements_placed = false;  // the FCL objects are placed at X_WL
+
+  [[nodiscard]] bool is_held() const { return carrier && !link; }
 };
 
 struct AuditedPair {
@@ -50,10 +57,15 @@ struct AuditedPair {
 // The audit's model of the cell: poses, and every pair that must not touch.
 class AuditedCell {
  public:
-  // Fails if a mesh has no data.
+  // Contains the objects of the cell at first; the arms are at home. Fails if a mesh has no data.
   [[nodiscard]] static Result<AuditedCell> build(const Cell& cell);
 
-  // Moves all links to q and adds to each solid's travel.
+  // Replaces all objects, and the pairs that may touch. Keeps the FCL objects of links, and of
+  // objects with the same name and shape, and what is known of their distances. Preconditions: each
+  // mesh has data, and an arm moves each link that holds an object.
+  void set_scene(const Cell& cell, const RecordedScene& scene);
+
+  // Moves all links to q, with what they hold, and adds to each solid's travel.
   void move_to(const Cell& cell, const Configuration& q);
 
   [[nodiscard]] std::vector<AuditedPair>& pairs() { return pairs_; }
@@ -68,14 +80,22 @@ class AuditedCell {
   [[nodiscard]] double look(AuditedPair& pair, double matters_m);
 
  private:
-  void add(AuditedSolid solid, const std::vector<PlacedShape>& shapes);
-  static AuditedSolid::Element make_element(const PlacedShape& placed);
+  using Place = std::size_t;  // in `solids_`
+  // Returns for each solid its place before, or kNew.
+  [[nodiscard]] std::vector<Place> replace_objects(const Cell& cell, const RecordedScene& scene);
+  void replace_pairs(const Cell& cell, const RecordedScene& scene,
+                     const std::vector<Place>& places_before);
+  void move(AuditedSolid& solid) const;
   void place_elements(AuditedSolid& solid) const;
+  static constexpr Place kNew = static_cast<Place>(-1);
 
-  std::vector<AuditedSolid> solids_;
-  std::vector<AuditedPair> pairs_;
+  std::vector<AuditedSolid> solids_;  // in this order: links, objects of the scene, held objects
+  std::size_t links_end_ = 0;         // end of the links in `solids_`
+  std::vector<AuditedPair> pairs_;    // ascending by (a, b)
   LinkPoses X_WL_;
-  bool moved_once_ = false;
 };
+
+// Finds objects with a mesh that has not been loaded.
+void find_unloaded_meshes(const RecordedScene& scene, Problems& problems);
 
 }  // namespace armloom

@@ -205,12 +205,19 @@ struct HeldView {
   CollisionObject object;
   std::string link = {};
   std::string arm = {};
+  std::vector<std::string> touch = {};  // Attachment::touch and touch_objects
+};
+// See AllowedTouch in core/model/attachment.h.
+struct TouchView {
+  std::string object;
+  std::vector<std::string> links;
 };
 // The objects of the planning scene; `version` grows with every change.
 struct SceneView {
   std::uint64_t version = 0;
   std::shared_ptr<const std::vector<CollisionObject>> shared = {};  // not null if published
   std::vector<HeldView> held = {};
+  std::vector<TouchView> touch = {};
 
   [[nodiscard]] const std::vector<CollisionObject>& objects() const { return *shared; }
 };

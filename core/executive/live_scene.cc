@@ -86,18 +86,7 @@ Result<Outline> outline(const ObjectRemoved& edit, const PlanningScene& base) {
 }
 
 bool is_same(const CollisionObject& a, const CollisionObject& b) {
-  if (a.shape.index() != b.shape.index() || a.X_WO.matrix() != b.X_WO.matrix()) return false;
-  if (const auto* box = std::get_if<Box>(&a.shape)) {
-    return box->size_m == std::get<Box>(b.shape).size_m;
-  }
-  if (const auto* cylinder = std::get_if<Cylinder>(&a.shape)) {
-    const Cylinder& other = std::get<Cylinder>(b.shape);
-    return cylinder->radius_m == other.radius_m && cylinder->length_m == other.length_m;
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&a.shape)) {
-    return sphere->radius_m == std::get<Sphere>(b.shape).radius_m;
-  }
-  return std::get<Mesh>(a.shape).data == std::get<Mesh>(b.shape).data;
+  return a.shape == b.shape && a.X_WO.matrix() == b.X_WO.matrix();
 }
 
 Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {
@@ -232,7 +221,7 @@ Result<void> LiveScene::change(PlanningScene::Content content) {
   if (!made) return failure(std::move(made.error()));
   ClearanceQuery query = StateWatch::query_of(*made);
   now_.scene = std::move(*made);
-  ++now_.version;
+  version_of_change_ = ++now_.version;
   told_.changed(query);
   return {};
 }

@@ -103,6 +103,8 @@ class LiveScene {
   [[nodiscard]] const VersionedScene& now() const { return now_; }
   [[nodiscard]] const PlanningScenePtr& scene() const { return now_.scene; }
   [[nodiscard]] std::uint64_t version() const { return now_.version; }
+  // Returns the version that the last change() made; zero if there was none.
+  [[nodiscard]] std::uint64_t version_of_change() const { return version_of_change_; }
   [[nodiscard]] const std::vector<CollisionObject>& objects() const {
     return now_.scene->objects();
   }
@@ -131,6 +133,7 @@ class LiveScene {
   [[nodiscard]] std::optional<Problem> object_in_arm(const PreparedEdit& prepared) const;
 
   VersionedScene now_;
+  std::uint64_t version_of_change_ = 0;
   Measured measured_;
   Told told_;
 };

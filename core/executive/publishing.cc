@@ -9,6 +9,15 @@
 #include "core/executive/task_view.h"
 
 namespace armloom {
+namespace {
+
+std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& links) {
+  std::vector<std::string> names;
+  for (const LinkId link : links) names.push_back(cell.link(link).name);
+  return names;
+}
+
+}  // namespace
 
 Publisher::Publisher(const Shown& shown, Observer& observer)
     : shown_(shown),
@@ -34,8 +43,10 @@ void Publisher::scene_has_changed(TimePoint now) {
 }
 
 void Publisher::tell_scene(TimePoint now) {
-  if (!scene_is_old_ || now < next_scene_) return;
+  const bool is_due = now >= next_scene_ || shown_.scene.version_of_change() > told_scene_;
+  if (!scene_is_old_ || !is_due) return;
   scene_is_old_ = false;
+  told_scene_ = shown_.scene.version();
   const std::size_t objects = shown_.scene.objects().size();
   next_scene_ =
       objects < kSmallScene ? now : now + static_cast<Duration::rep>(objects) * kForEachObject;
@@ -51,7 +62,12 @@ SceneView Publisher::scene() const {
   const PlanningScenePtr& scene = shown_.scene.scene();
   SceneView view{shown_.scene.version(), {scene, &scene->objects()}};
   for (const Attachment& held : scene->attachments()) {
-    view.held.push_back(place_of(*scene, held.object.name));
+    HeldView& shown = view.held.emplace_back(place_of(*scene, held.object.name));
+    shown.touch = names_of(shown_.cell, held.touch);
+    shown.touch.insert(shown.touch.end(), held.touch_objects.begin(), held.touch_objects.end());
+  }
+  for (const AllowedTouch& allowed : scene->touch()) {
+    view.touch.push_back({allowed.object, names_of(shown_.cell, allowed.links)});
   }
   return view;
 }

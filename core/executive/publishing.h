@@ -41,7 +41,8 @@ class Publisher {
   using Body = decltype(Event::body);
   void tell(Body body, TimePoint now);
   // Publish the scene: on the board at once. Events of large scenes are published less often, so
-  // that one event may cover several changes.
+  // that one event may cover several changes. What arms hold and what may touch is published at
+  // once, because the audit of a recording relies on its time.
   void scene_has_changed(TimePoint now);
   void tell_scene(TimePoint now);
   void tell_signal(SignalId signal, TimePoint now);
@@ -105,6 +106,7 @@ class Publisher {
   TimePoint next_queue_{};
   bool scene_is_old_ = false;
   TimePoint next_scene_{};
+  std::uint64_t told_scene_ = 0;                                              // version
   static constexpr std::size_t kSmallScene = 100;                             // objects
   static constexpr Duration kForEachObject = std::chrono::microseconds(100);  // between two events
   static constexpr std::size_t kShortQueue = 100;                             // jobs

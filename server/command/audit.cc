@@ -6,6 +6,7 @@
 #include "server/codec/json_writer.h"
 #include "server/command/command.h"
 #include "server/command/progress.h"
+#include "server/recording/recorded_scenes.h"
 #include "server/recording/states_csv.h"
 
 namespace armloom {
@@ -72,10 +73,15 @@ int audit_recording(const AuditOptions& options) {
     complain(options.recording, states.error());
     return kExitBadInput;
   }
+  const auto scenes = read_scenes(options.recording, *loaded->cell, &warnings);
+  if (!scenes) {
+    complain(options.recording, scenes.error());
+    return kExitBadInput;
+  }
   for (const std::string& warning : warnings) std::cerr << "armloom: warning: " << warning << '\n';
   const auto report = [&] {
     const Progress progress("audit of " + std::to_string(states->states.size()) + " states");
-    return audit(*loaded->cell, states->states, from_seconds(options.step_s));
+    return audit(*loaded->cell, states->states, from_seconds(options.step_s), *scenes);
   }();
   if (!report) {
     complain(options.cell_file, report.error());
@@ -84,6 +90,9 @@ int audit_recording(const AuditOptions& options) {
   if (states->true_from) {
     std::cout << "true positions of simulated arms from " << to_seconds(*states->true_from)
               << " s on (" << kTrueStates << "), measured ones before\n";
+  }
+  if (!scenes->empty()) {
+    std::cout << "objects as in the " << scenes->size() << " scene events of events.jsonl\n";
   }
   print_report(*report);
   return report->first_contact ? kExitFound : kExitDone;

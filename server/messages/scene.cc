@@ -93,6 +93,7 @@ FormatPtr<SceneRequest> scene_request_format() {
                          "The objects; a name of an object of the cell file replaces that object"),
                 ignored<Request>("held", anything("array"),
                                  "Ignored: steps of jobs attach and detach objects"),
+                ignored<Request>("touch", anything("array"), "Ignored, as `held`"),
                 field("version", &Request::version, count(),
                       "Version that the scene must have, as in GET /scene; 409 if it has another "
                       "version. Default: any version"),
@@ -155,19 +156,39 @@ FormatPtr<CollisionObject> object_format() {
 
 namespace {
 
+template <class T>
+const T* unless_empty(const T& list) {
+  return list.empty() ? nullptr : &list;
+}
+
 FormatPtr<HeldView> held_format() {
+  const auto touch = [](const HeldView& view) { return unless_empty(view.touch); };
   return named("HeldObject", "An object that an arm holds.",
                object<HeldView>({
                    output_only("object", &HeldView::object, object_format(),
                                "The object, with its pose in the frame of `link`"),
                    output_only("link", &HeldView::link, text(), "Link that carries the object"),
                    output_only("arm", &HeldView::arm, text(), "Arm that moves the link"),
+                   output_if("touch", touch, list(text()),
+                             "Links and objects that the object may touch at present, besides "
+                             "the hand that holds it; absent if there are none"),
+               }));
+}
+
+FormatPtr<TouchView> touch_format() {
+  return named("AllowedTouch",
+               "Links that may touch an object of the scene at present, besides those that the "
+               "cell file allows.",
+               object<TouchView>({
+                   output_only("object", &TouchView::object, text()),
+                   output_only("links", &TouchView::links, list(text())),
                }));
 }
 
 }  // namespace
 
 FormatPtr<SceneView> scene_format() {
+  const auto touch = [](const SceneView& view) { return unless_empty(view.touch); };
   static const auto format =
       named("Scene", "",
             object<SceneView>({
@@ -178,6 +199,9 @@ FormatPtr<SceneView> scene_format() {
                     list(object_format())),
                 output_only("held", &SceneView::held, list(held_format()),
                             "Objects that arms hold; they are not in `objects`"),
+                output_if("touch", touch, list(touch_format()),
+                          "Contact with objects that steps of jobs allow at present; absent if "
+                          "there is none"),
             }));
   return format;
 }

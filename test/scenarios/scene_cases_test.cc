@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/collision/scene/scene_bodies.h"
+#include "core/executive/holding.h"
+#include "core/executive/live_scene.h"
 #include "test/scenarios/polygon.h"
 
 namespace armloom {
@@ -38,6 +40,25 @@ TEST(Scene, WaitingJobIsCheckedAgainWhenTheObjectMoves) {
   ASSERT_TRUE(cell.simulation->executive().scene().replace(aside));
   cell.run_until(at(1100ms));
   EXPECT_EQ(cell.job("waits").state, JobState::running);
+}
+
+// Events of large scenes are rare. What may touch is told at once, because an audit needs the time.
+TEST(Scene, TellsAtOnceWhatMayTouch) {
+  Crossing cell;
+  LiveScene& scene = cell.simulation->executive().scene();
+  std::vector<CollisionObject> many;
+  for (int i = 0; i < 200; ++i) many.push_back(ball_at(5.0 + i, "ball" + std::to_string(i)));
+  ASSERT_TRUE(scene.set(many));
+  ASSERT_TRUE(scene.remove("ball7"));
+  const auto told = [&] { return std::get<SceneView>(cell.log.events.back().body); };
+  EXPECT_EQ(told().objects().size(), 200U) << "the next event comes 20 ms later";
+  const LinkId link = *scene.scene()->cell().find_link("x_ball");
+  ASSERT_TRUE(scene.change(touching(*scene.scene(), "ball9", Touch{{link}, {}})));
+  EXPECT_EQ(told().version, scene.version());
+  EXPECT_EQ(told().objects().size(), 199U);
+  ASSERT_EQ(told().touch.size(), 1U);
+  EXPECT_EQ(told().touch[0].object, "ball9");
+  EXPECT_EQ(told().touch[0].links, std::vector<std::string>{"x_ball"});
 }
 
 TEST(Scene, RefusesImpossibleChanges) {

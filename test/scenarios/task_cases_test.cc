@@ -11,6 +11,7 @@
 namespace armloom {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kPart_m = 0.03;  // radius
@@ -113,6 +114,30 @@ TEST(Task, IsOneJobForClients) {
   EXPECT_EQ(std::ranges::count_if(states["pick"], is_terminal), 1) << "ends once";
   EXPECT_EQ(cell.job("behind").state, JobState::succeeded);
   EXPECT_GT(*cell.job("behind").times.started_at, *cell.job("pick").times.ended_at - 1ms);
+}
+
+TEST(Task, TellsWhatMayTouch) {
+  Tasks cell;
+  cell.submit(task("pick", {slide_to("x", 0.0), attach("x_ball", {"y_ball"}), slide_to("x", 0.4),
+                            slide_to("x", 0.5), detach(), slide_to("x", -1.0)}));
+  cell.run_to_the_end();
+  std::vector<std::string> told;
+  for (const Event& event : cell.log.events) {
+    const auto* scene = std::get_if<SceneView>(&event.body);
+    if (scene == nullptr) continue;
+    std::string text;
+    for (const HeldView& held : scene->held) {
+      text += held.link + " holds " + held.object.name + ":";
+      for (const std::string& name : held.touch) text += " " + name;
+    }
+    for (const TouchView& touch : scene->touch) {
+      text += touch.object + ":";
+      for (const std::string& name : touch.links) text += " " + name;
+    }
+    if (told.empty() || told.back() != text) told.push_back(text);
+  }
+  EXPECT_THAT(told, ElementsAre("", "part: x_ball y_ball", "x_ball holds part: y_ball",
+                                "x_ball holds part:", "part: x_ball", ""));
 }
 
 // T8: the bare arms would pass each other; the held part would touch.

@@ -990,6 +990,8 @@ export interface components {
             objects: components["schemas"]["Object"][];
             /** @description Objects that arms hold; they are not in `objects` */
             held: components["schemas"]["HeldObject"][];
+            /** @description Contact with objects that steps of jobs allow at present; absent if there is none */
+            touch?: components["schemas"]["AllowedTouch"][];
         };
         /** @description An input or output of the cell. */
         Signal: {
@@ -1153,6 +1155,13 @@ export interface components {
             link: string;
             /** @description Arm that moves the link */
             arm: string;
+            /** @description Links and objects that the object may touch at present, besides the hand that holds it; absent if there are none */
+            touch?: string[];
+        };
+        /** @description Links that may touch an object of the scene at present, besides those that the cell file allows. */
+        AllowedTouch: {
+            object: string;
+            links: string[];
         };
         /** @description A rectangle of two motions. Times are trajectory time. */
         ProgressBox: {
