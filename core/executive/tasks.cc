@@ -13,7 +13,8 @@ namespace armloom {
 namespace {
 
 std::string step_text(const Task& task) {
-  std::string text = "step " + std::to_string(task.at);
+  std::string text =
+      "step " + std::to_string(task.at + 1) + " of " + std::to_string(task.steps.size());
   const TaskStep& step = task.steps[task.at];
   if (!step.request.name.empty()) text += " (" + step.request.name + ")";
   return text + ": ";

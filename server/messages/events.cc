@@ -146,6 +146,13 @@ FormatPtr<SnapshotView> snapshot_format() {
               "objects", [](const View& view) { return &view.snapshot->scene.objects(); },
               list(object_format())),
           output_if(
+              "held",
+              [](const View& view) {
+                const auto& held = view.snapshot->scene.held;
+                return held.empty() ? std::nullopt : std::optional(held);
+              },
+              list(held_format()), "Objects that arms hold, if there are any"),
+          output_if(
               "io",
               [](const View& view) {
                 const auto& signals = view.snapshot->signals;

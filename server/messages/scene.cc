@@ -161,6 +161,18 @@ const T* unless_empty(const T& list) {
   return list.empty() ? nullptr : &list;
 }
 
+FormatPtr<TouchView> touch_format() {
+  return named("AllowedTouch",
+               "Links that may touch an object of the scene at present, besides those that the "
+               "cell file allows.",
+               object<TouchView>({
+                   output_only("object", &TouchView::object, text()),
+                   output_only("links", &TouchView::links, list(text())),
+               }));
+}
+
+}  // namespace
+
 FormatPtr<HeldView> held_format() {
   const auto touch = [](const HeldView& view) { return unless_empty(view.touch); };
   return named("HeldObject", "An object that an arm holds.",
@@ -174,18 +186,6 @@ FormatPtr<HeldView> held_format() {
                              "the hand that holds it; absent if there are none"),
                }));
 }
-
-FormatPtr<TouchView> touch_format() {
-  return named("AllowedTouch",
-               "Links that may touch an object of the scene at present, besides those that the "
-               "cell file allows.",
-               object<TouchView>({
-                   output_only("object", &TouchView::object, text()),
-                   output_only("links", &TouchView::links, list(text())),
-               }));
-}
-
-}  // namespace
 
 FormatPtr<SceneView> scene_format() {
   const auto touch = [](const SceneView& view) { return unless_empty(view.touch); };

@@ -42,6 +42,7 @@ struct ReadScene {
 // Objects without a mesh can be read back, up to rounding of angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();
 [[nodiscard]] FormatPtr<SceneView> scene_format();
+[[nodiscard]] FormatPtr<HeldView> held_format();
 
 // Answers to changes of the scene.
 struct SceneChange {

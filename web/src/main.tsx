@@ -26,7 +26,7 @@ import { address_on_server, Api, kApi } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
-import type { Message, SequencedMessage, Session } from './server/messages';
+import type { Message, Session } from './server/messages';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Seen, seen_app } from './state/as_of';
@@ -76,7 +76,6 @@ function take(message: Message): void {
   const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
   store.take(message);
   if (is_new_run) void look_before(message.stream, message.seq);
-  if (message.type === 'snapshot') void look_at_scene(message);
   if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
   if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
   // A snapshot contains only the last ended jobs. The archive starts again to find the others.
@@ -119,13 +118,6 @@ async function know_who(): Promise<void> {
 /** Loads events from before the page was connected. */
 async function look_before(stream: string, seq: number): Promise<void> {
   store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
-}
-
-/** Loads the held objects, which snapshots do not have. */
-async function look_at_scene(snapshot: Pick<SequencedMessage, 'stream' | 'seq'>, attempt = 1): Promise<void> {
-  const answer = await api.scene();
-  if (answer.ok) store.take_scene(answer.value, snapshot);
-  else if (snapshot.stream === store.stream) timers.set(() => void look_at_scene(snapshot, attempt + 1), backoff_ms(attempt));
 }
 
 /**

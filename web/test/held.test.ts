@@ -1,10 +1,10 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { EventsReader } from '../src/recordings/read_events';
-import { parse_message, parse_scene, type Scene, type SequencedMessage } from '../src/server/messages';
+import { parse_message, type SequencedMessage } from '../src/server/messages';
 import { events_until, state_after } from '../src/state/as_of';
 import { folded } from '../src/state/snapshots';
 import { Store } from '../src/state/store';
-import { envelope, held_json, kStream, scene_json, snapshot } from './samples';
+import { envelope, held_json, scene_json, snapshot } from './samples';
 
 let store: Store;
 
@@ -15,12 +15,6 @@ function read(text: string): SequencedMessage {
 }
 const take = (...texts: string[]) => { for (const text of texts) store.take(read(text)); };
 const scene = (seq: number, objects: string[], held: Record<string, string>) => envelope('scene', seq, scene_json(objects, held));
-/** The answer of GET /scene. */
-function answer(objects: string[], held: Record<string, string>): Scene {
-  const parsed = parse_scene(scene_json(objects, held));
-  if (!parsed.ok) throw new Error(parsed.fault);
-  return parsed.value;
-}
 /** Returns the place of each object: in the scene, or held by an arm. */
 const places = (of: Store = store) => [
   ...of.objects.map(({ name }) => `${name} in the scene`), ...of.held.map(({ object, arm }) => `${object.name} held by ${arm}`),
@@ -47,34 +41,6 @@ describe('Held objects', () => {
     expect(places(at(9))).toEqual(['part in the scene', 'table in the scene']);
     take(scene(10, ['table'], { part: 'left' }));
     expect(at(0.5).held, 'not known before the first data').toEqual([]);
-  });
-
-  it('are loaded after a snapshot, which does not have them', () => {
-    take(snapshot(5));
-    store.take_scene(answer(['table'], { part: 'left' }), { stream: kStream, seq: 5 });
-    expect(store.holds('left')).toEqual(['part']);
-    take(envelope('alert', 8, { level: 'info', text: 'later' }));
-    expect(at(6).holds('left')).toEqual(['part']);
-    store.take_earlier([read(envelope('alert', 3, { level: 'info', text: 'earlier' }))]);
-    expect(at(3).holds('left')).toEqual(['part']);
-  });
-
-  it('are not replaced by an answer that is older than a scene event', () => {
-    take(snapshot(5), scene(6, ['table', 'part'], {}));
-    store.take_scene(answer(['table'], { part: 'left' }), { stream: kStream, seq: 5 });
-    expect(places()).toEqual(['part in the scene', 'table in the scene']);
-    store.take_scene(answer(['table'], { part: 'left' }), { stream: 'another session', seq: 9 });
-    expect(store.held).toEqual([]);
-  });
-
-  it('stay over a lost connection until the new scene is loaded, and are at one place only', () => {
-    take(snapshot(1), scene(2, ['table'], { part: 'left', bolt: 'right' }));
-    take(snapshot(9, { gap: true, objects: scene_json(['table', 'bolt'], {}).objects }));
-    expect(places()).toEqual(['bolt in the scene', 'part held by left', 'table in the scene']);
-    store.take_scene(answer(['table', 'bolt'], { part: 'right' }), { stream: kStream, seq: 9 });
-    expect(places()).toEqual(['bolt in the scene', 'part held by right', 'table in the scene']);
-    take(envelope('alert', 12, { level: 'info', text: 'later' }));
-    expect(at(10).holds('right')).toEqual(['part']);
   });
 
   it('are forgotten with the session', () => {

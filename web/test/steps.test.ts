@@ -84,12 +84,12 @@ describe('The steps of a job', () => {
   });
 
   it('name the failed step once, in the count of the page', () => {
-    expect(result_in_words(failed(1, 'step 1: part is 40 mm from the hand'))).toBe('step 2 of 4 (attach part to left_panda_hand): part is 40 mm from the hand');
-    expect(result_in_words(failed(0, 'step 0 (above): no path'))).toBe('step 1 of 4 (above): no path');
-    expect(result_in_words(failed(0, 'step 0 (below): other words', { result: { reason: 'no_plan', detail: 'step 0 (below): other words', step: 0 } })))
-      .toBe('step 1 of 4 (above): no plan: step 0 (below): other words');
+    expect(result_in_words(failed(1, 'step 2 of 4: part is 40 mm from the hand'))).toBe('step 2 of 4 (attach part to left_panda_hand): part is 40 mm from the hand');
+    expect(result_in_words(failed(0, 'step 1 of 4 (above): no path'))).toBe('step 1 of 4 (above): no path');
+    expect(result_in_words(failed(0, 'step 1 of 4 (below): other words', { result: { reason: 'no_plan', detail: 'step 1 of 4 (below): other words', step: 0 } })))
+      .toBe('step 1 of 4 (above): no plan: step 1 of 4 (below): other words');
     // A job of an earlier session may have no steps any more.
-    const { steps: _, ...former } = failed(1, 'step 1: gone');
+    const { steps: _, ...former } = failed(1, 'step 2 of 4: gone');
     expect(result_in_words(former)).toBe('step 2: gone');
   });
 });

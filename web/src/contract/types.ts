@@ -936,6 +936,8 @@ export interface components {
             jobs: components["schemas"]["Job"][];
             queue: components["schemas"]["QueueIds"];
             objects: components["schemas"]["Object"][];
+            /** @description Objects that arms hold, if there are any */
+            held?: components["schemas"]["HeldObject"][];
             /** @description Inputs and outputs, if the cell has any */
             io?: components["schemas"]["Signal"][];
             /** @description true if events before this snapshot were lost */
@@ -1145,8 +1147,6 @@ export interface components {
             name: string;
             bytes: number;
         };
-        /** @enum {string} */
-        ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
         /** @description An object that an arm holds. */
         HeldObject: {
             /** @description The object, with its pose in the frame of `link` */
@@ -1158,6 +1158,8 @@ export interface components {
             /** @description Links and objects that the object may touch at present, besides the hand that holds it; absent if there are none */
             touch?: string[];
         };
+        /** @enum {string} */
+        ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
         /** @description Links that may touch an object of the scene at present, besides those that the cell file allows. */
         AllowedTouch: {
             object: string;

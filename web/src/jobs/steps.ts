@@ -49,13 +49,13 @@ export function step_in_words(job: Stepped, in_sentence = false): string | null 
 
 /**
  * Returns the reason that the server gives for the end of a job, without the step at its beginning:
- * the page names the step itself, and counts from 1.
+ * the page names the step itself.
  */
 export function detail_without_step({ steps, result }: Stepped): string {
   const detail = result?.detail ?? '';
   if (result?.step === undefined) return detail;
   const name = steps?.[result.step]?.name ?? '';
-  const begin = `step ${result.step}${name === '' ? '' : ` (${name})`}: `;
+  const begin = `step ${result.step + 1} of ${steps?.length ?? /^step \d+ of (\d+)/.exec(detail)?.[1] ?? ''}${name === '' ? '' : ` (${name})`}: `;
   return detail.startsWith(begin) ? detail.slice(begin.length) : detail;
 }
 

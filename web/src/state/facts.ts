@@ -204,8 +204,7 @@ export class Facts {
     this.stopped = data.stopped;
     this.speed_override = data.speed_override ?? 1;
     this.objects = data.objects;
-    // Until the page has asked for them, the held objects of this session are taken as before.
-    this.held = data.held ?? (same_run ? this.held.filter(({ object }) => data.objects.every(({ name }) => name !== object.name)) : []);
+    this.held = data.held ?? [];
     this.signals = data.io ?? [];
     // In a past state, arms that the snapshot does not contain stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);

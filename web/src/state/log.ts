@@ -37,12 +37,6 @@ export class Log {
     this.turn_ += 1;
   }
 
-  /** Replaces each entry by what `change` returns. */
-  amend(change: (entry: SequencedMessage) => SequencedMessage): void {
-    this.entries_ = this.entries_.map(change);
-    this.turn_ += 1;
-  }
-
   clear(): void {
     this.entries_ = [];
     this.turn_ += 1;

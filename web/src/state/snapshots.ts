@@ -1,15 +1,12 @@
 // Builds snapshots of a session's state at a time, in the server's format. Pure.
 
-import type { Arm, HeldObject, SequencedMessage } from '../server/messages';
+import type { Arm, SequencedMessage } from '../server/messages';
 import { Facts } from './facts';
 import { ended_from } from './job_book';
 
 type ToldSnapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
-/**
- * A snapshot. Only snapshots that the page made itself have `ended_from_s` (see JobBook). The server
- * sends `held` only in scene events and in GET /scene; the page adds it (Store.take_scene).
- */
-export type Snapshot = ToldSnapshot & { data: { ended_from_s?: number | null; held?: HeldObject[] } };
+/** A snapshot. Only snapshots that the page made itself have `ended_from_s` (see JobBook). */
+export type Snapshot = ToldSnapshot & { data: { ended_from_s?: number | null } };
 
 /**
  * Combines entries of the log into one snapshot. Returns null if the first entry is not a snapshot,
@@ -52,11 +49,6 @@ export function before_all({ data, ...first }: ToldSnapshot, led: readonly Seque
       ended_from_s: is_whole || from_s === null ? null : Math.min(from_s, next?.t_s ?? from_s),
     },
   };
-}
-
-/** Returns a snapshot with these held objects, unless it has some already. */
-export function with_held({ data, ...snapshot }: Snapshot, held: HeldObject[]): Snapshot {
-  return { ...snapshot, data: { ...data, held: data.held ?? held } };
 }
 
 /** Returns the state at the beginning of a session, without jobs. */

@@ -3,12 +3,12 @@
 // of state/pulse.ts.
 
 import type { Link } from '../server/connection';
-import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, Scene, SequencedMessage, StateMessage } from '../server/messages';
+import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
 import { Facts } from './facts';
 import { Log } from './log';
 import { ProgressBook, progress_at } from './progress_book';
 import { from_now, Pulse } from './pulse';
-import { at_rest, before_all, beginning_of, folded, with_held, type Snapshot } from './snapshots';
+import { at_rest, before_all, beginning_of, folded } from './snapshots';
 import { Trace } from './trace';
 
 /** The joint positions of a recording. */
@@ -234,18 +234,6 @@ export class Store extends Facts {
   look_at(t_s: number): void {
     this.t_s = this.moment_s_ = t_s;
     this.pulse_.beat();
-  }
-
-  /**
-   * Takes the held objects of GET /scene, because the server's snapshots do not have them. Scene
-   * events after the snapshot have them, and are newer.
-   */
-  take_scene({ held }: Scene, of: Pick<Snapshot, 'stream' | 'seq'>): void {
-    const { entries } = this.log;
-    if (of.stream !== this.stream || entries.some(({ type, seq }) => type === 'scene' && seq > of.seq)) return;
-    this.log.amend((entry) => (entry.type === 'snapshot' ? with_held(entry, held) : entry));
-    this.held = held;
-    this.pulse_.change();
   }
 
   set_cell(cell: Cell): void {
