@@ -74,7 +74,10 @@ TEST(FaultRun, HasContactsOnlyIfTheMonitorIsOff) {
 // 18114: an arm stood exactly start_tolerance_rad from the start of its next job. One comparison
 // found it there, another one did not, and the job was checked again and again.
 TEST(LongRun, NoJobWaitsAtTheEnd) {
-  for (const auto& [seed, policy] : {std::pair(6071U, "sequential"), {6088U, "lockstep"}, {14011U, "earliest_start"}, {18114U, "coordinated"}}) {
+  for (const auto& [seed, policy] : {std::pair(6071U, "sequential"),
+                                     {6088U, "lockstep"},
+                                     {14011U, "earliest_start"},
+                                     {18114U, "coordinated"}}) {
     const FaultRunResult result = run_with_faults(
         {.seed = seed, .policy = policy, .jobs_for = std::chrono::minutes(30), .open_max = 40});
     EXPECT_GT(result.jobs, 1000U) << seed;

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Kills the server (kill -9) in each step of a pick and place, and checks the state that the next server restores.
+
+    test/server/killed_tasks.py ARMLOOM
+
+After each kill
+- the job is `interrupted`, and names a step that it had begun (the last one that was stored: a step is stored
+  some milliseconds after it began),
+- the part is at exactly one place: held from `attach` to `detach`, at its last place otherwise. This is stored before
+  the next step begins,
+- nothing is done again: the job does not run.
+"""
+import pathlib
+import sys
+import tempfile
+import time
+
+from killed_server import API, Server
+
+PART = {"name": "part", "box": [0.04, 0.04, 0.08], "xyz": [-0.1, 0.35, 0.141]}
+ATTACH, DETACH = 4, 8
+
+
+def above(y, z):
+    pose = {"link": "left_panda_hand", "xyz": [-0.1, y, z], "rpy": [3.14159265, 0, 0.785]}
+    return {"move_to": {"pose": pose}, "arm": "left"}
+
+
+STEPS = [
+    above(0.35, 0.40),
+    {"gripper": {"arm": "left", "width_m": 0.07}},
+    above(0.35, 0.25),
+    {"gripper": {"arm": "left", "width_m": 0.04}},
+    {"attach": {"object": "part", "link": "left_panda_hand", "touch": ["table"]}},
+    above(0.35, 0.40),
+    {"wait_s": 1.0},
+    above(-0.35, 0.25),
+    {"detach": {"object": "part", "touch": ["table"]}},
+    {"gripper": {"arm": "left", "width_m": 0.07}},
+    above(-0.35, 0.40),
+]
+
+
+def wait_for(what, found, seconds=60):
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        answer = found()
+        if answer is not None:
+            return answer
+        time.sleep(0.002)
+    raise AssertionError(f"{what}: not within {seconds} s")
+
+
+def kill_at(program, step, folder, log):
+    """Kills the server once the job has come to this step. Returns the step that was seen last."""
+    server = Server(program, folder, log)
+    try:
+        assert server.call("PUT", API + "/scene/objects/part", PART)[0] == 201
+        status, answer = server.call("POST", API + "/jobs", {"id": "pick", "steps": STEPS})
+        assert status == 202, answer
+
+        def there():
+            job = server.call("GET", API + "/jobs/pick")[1]
+            assert job["state"] not in ("failed", "expired"), job["result"]
+            at = job.get("step", len(STEPS))
+            return at if at >= step and (job["started_s"] is not None or step == 0) else None
+
+        return wait_for(f"step {step}", there)
+    finally:
+        server.kill()
+
+
+def check(program, at, folder, log):
+    server = Server(program, folder, log)
+    try:
+        job = server.call("GET", API + "/jobs/pick")[1]
+        scene = server.call("GET", API + "/scene")[1]
+        placed = [o for o in scene["objects"] if o["name"] == "part"]
+        held = [h for h in scene["held"] if h["object"]["name"] == "part"]
+        assert len(placed) + len(held) == 1, scene
+        if job["state"] == "queued":  # it was killed before the job began
+            assert at == 0, (at, job)
+            return "waits"
+        assert job["state"] == "interrupted", job
+        ended = job["result"]["step"]
+        assert ended <= at + 1, (at, job["result"])
+        if ATTACH < at < DETACH - 1:
+            assert held, (at, scene)
+        elif at < ATTACH - 1:
+            assert placed and abs(placed[0]["xyz"][1] - 0.35) < 1e-6, (at, scene)
+        elif at > DETACH:
+            assert placed and abs(placed[0]["xyz"][1] + 0.35) < 2e-3, (at, scene)
+        status, answer = server.call("POST", API + "/resume")
+        assert status < 300, answer
+        time.sleep(0.5)
+        assert server.call("GET", API + "/jobs/pick")[1]["state"] == "interrupted"
+        return f"interrupted at step {ended}, part {'held' if held else 'placed'}"
+    finally:
+        server.kill()
+
+
+def main():
+    program = sys.argv[1]
+    for step in range(len(STEPS)):
+        with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
+            data = pathlib.Path(folder) / "data"
+            at = kill_at(program, step, data, log)
+            print(f"killed at step {at}: {check(program, at, data, log)}", flush=True)
+    print("killed tasks: OK")
+
+
+if __name__ == "__main__":
+    main()
