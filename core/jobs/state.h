@@ -89,7 +89,7 @@ class StateWriter {
   [[nodiscard]] const State* operator->() const { return &state_; }
   operator const State&() const { return state_; }
 
-  // Owners whose transitions have no consequences elsewhere.
+  // Owners. What has consequences for other facts is done by Transitions.
   [[nodiscard]] JobBook& jobs() { return state_.jobs; }
   [[nodiscard]] Lanes& lanes() { return state_.lanes; }
   [[nodiscard]] ArmRests& arms() { return state_.arms; }

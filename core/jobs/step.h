@@ -54,7 +54,7 @@ struct AfterStop {
 //
 //   Queued    -> Admitted   with passing orders
 //   Admitted  -> Moving     dispatched to its arms; or back to Queued, Held: withdrawn
-//   Moving    -> Braking    canceled, stopped, overdue
+//   Moving    -> Braking    canceled, stopped, overdue; Held, Admitted: rests unasked
 //   Braking   -> Held       stopped on its path; Admitted, Queued: stopped before it moved
 //   Held      -> Admitted   found free by a check; or back to Queued, with a new path
 //   any       -> Ended
