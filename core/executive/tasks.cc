@@ -104,7 +104,10 @@ bool Executive::Impl::go_on(Task& task) {
   TaskStep& present = task.steps[task.at];
   if (present.job) return go_on_with_motion(task, present);
   const auto next = task.next_motion();
-  if (next && !scheduler_.has_turn_for_actions(*next)) return false;
+  if (next && !scheduler_.has_turn_for_actions(*next)) {
+    tell_stop(task, *next);
+    return false;
+  }
   if (!next && any_stopped(task)) return false;
   if (!is_recorded(task)) return false;
   if (!task.began_at) task.began_at = clock_.now;
@@ -124,6 +127,19 @@ bool Executive::Impl::go_on(Task& task) {
   task.since.reset();
   ++task.at;
   return true;
+}
+
+// Publishes that the task waits for a resume, if an arm of its next motion is stopped.
+void Executive::Impl::tell_stop(Task& task, JobId next) {
+  if (!task.began_at) return;  // the motion says so itself
+  for (const ArmId arm : scheduler_.find(next)->trajectory->arms()) {
+    const auto& stop = scheduler_.stop_of(arm);
+    if (!stop) continue;
+    Wait wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
+    if (task.waits_on.size() == 1 && task.waits_on.front().same_cause(wait)) return;
+    task.waits_on = {std::move(wait)};
+    return tell_task(task.id);
+  }
 }
 
 bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {

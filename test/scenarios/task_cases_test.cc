@@ -231,6 +231,8 @@ TEST(Task, DoesNothingWhileItsArmIsStopped) {
   cell.executive().stop({ArmId{0}}, "test");
   cell.run_until(cell.simulation->now() + 3s);
   EXPECT_EQ(cell.signal("valve"), SignalValue(false));
+  ASSERT_EQ(cell.job("io").waits_on.size(), 1U);
+  EXPECT_EQ(cell.job("io").waits_on[0].kind, Wait::Kind::stop);
   (void)cell.executive().resume({ArmId{0}});
   cell.run_to_the_end();
   EXPECT_EQ(cell.signal("valve"), SignalValue(true));
