@@ -1,7 +1,9 @@
 #include "server/messages/task_request.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "server/codec/io_format.h"
@@ -86,56 +88,59 @@ FormatPtr<WaitIoRequest> wait_io_format() {
   });
 }
 
-// The JSON form of a step.
-struct StepBody {
+// The JSON form of a motion.
+struct MotionBody {
   std::string name;
   std::optional<TrajectoryRequest> trajectory;
   std::optional<PlanGoal> move_to;
   std::string arm;
   std::optional<double> speed;
   std::vector<Trigger> triggers;
-  std::optional<GripperStepRequest> gripper;
-  std::optional<AttachRequest> attach;
-  std::optional<DetachRequest> detach;
-  std::optional<Duration> wait;
-  std::optional<SetIoRequest> set_io;
-  std::optional<WaitIoRequest> wait_io;
+};
+// The JSON form of an action, or of a motion of the gripper.
+template <class T>
+struct NamedStep {
+  std::string name;
+  T what{};
 };
 
-FormatPtr<StepBody> body_format() {
-  using Body = StepBody;
-  static const auto format = named(
-      "StepRequest", "A step of a job: a motion, or an action between two motions.",
-      object<Body>({
-          field("name", &Body::name, job_name_format(), "Display name"),
-          field("trajectory", &Body::trajectory, trajectory_request_format(), "A motion"),
-          field("move_to", &Body::move_to, plan_goal_format(),
-                "A motion to a goal of `arm`. The path is planned with what the arm then holds"),
-          field("arm", &Body::arm, formats::name(),
-                "With `move_to`: the arm that moves. With `trajectory`: joint names may lack the "
-                "prefix of this arm's robot"),
-          field("velocity_scaling_factor", &Body::speed, number({kVelocityScalingMin, 1.0}),
-                "Velocity scaling of the motion; default: that of the job"),
-          field("triggers", &Body::triggers,
-                list(trigger_format(), {.most = kTriggersMax, .noun = "triggers"}),
-                "Outputs that are set during the motion"),
-          field("gripper", &Body::gripper, gripper_format(), "A motion of the gripper"),
-          field("attach", &Body::attach, attach_format(),
-                "The link carries the object from now on. The hand may touch it during the motion "
-                "before"),
-          field("detach", &Body::detach, detach_format(),
-                "The object stays where it is. The hand may touch it during the next motion"),
-          field("wait_s", &Body::wait, seconds({0.0, kTimeMax_s}), "Waits for this time"),
-          field("set_io", &Body::set_io, set_io_format(),
-                "Sets an output. The step ends when the device has reported the value"),
-          field("wait_io", &Body::wait_io, wait_io_format(), "Waits until a signal has the value"),
-          exactly_one<Body>({"trajectory", "move_to", "gripper", "attach", "detach", "wait_s",
-                             "set_io", "wait_io"}),
-      }));
-  return format;
+struct WaitBody {
+  std::string name;
+  Duration time{};
+};
+
+template <class Body>
+PartPtr<Body> name_part() {
+  return field("name", &Body::name, job_name_format(), "Display name");
 }
 
-MotionStepRequest motion_of(StepBody& body) {
+FormatPtr<MotionBody> motion_format() {
+  using Body = MotionBody;
+  return object<Body>({
+      name_part<Body>(),
+      field("trajectory", &Body::trajectory, trajectory_request_format(), "A motion"),
+      field("move_to", &Body::move_to, plan_goal_format(),
+            "A motion to a goal of `arm`. The path is planned with what the arm then holds"),
+      field(
+          "arm", &Body::arm, formats::name(),
+          "With `move_to`: the arm that moves. With `trajectory`: joint names may lack the prefix "
+          "of this arm's robot"),
+      field("velocity_scaling_factor", &Body::speed, number({kVelocityScalingMin, 1.0}),
+            "Velocity scaling of the motion; default: that of the job"),
+      field("triggers", &Body::triggers,
+            list(trigger_format(), {.most = kTriggersMax, .noun = "triggers"}),
+            "Outputs that are set during the motion"),
+      exactly_one<Body>({"trajectory", "move_to"}),
+  });
+}
+
+FormatPtr<WaitBody> wait_format() {
+  return object<WaitBody>(
+      {name_part<WaitBody>(),
+       required("wait_s", &WaitBody::time, seconds({0.0, kTimeMax_s}), "Waits for this time")});
+}
+
+MotionStepRequest motion_of(MotionBody& body) {
   MotionStepRequest motion{.trajectory = {},
                            .move_to = std::move(body.move_to),
                            .arm = body.arm,
@@ -155,41 +160,81 @@ MotionStepRequest motion_of(StepBody& body) {
 
 class StepFormat final : public CustomFormat<StepRequest> {
  public:
+  StepFormat() {
+    const Format<MotionBody> motion = *motion_format();
+    kinds_.push_back({{"trajectory", "move_to"},
+                      [motion](const JsonNode& node, StepRequest& out) {
+                        MotionBody body;
+                        motion.read(node, body);
+                        out = {std::move(body.name), motion_of(body)};
+                      },
+                      motion.schema(Way::in)});
+    add("gripper", gripper_format(), "Moves the fingers of the gripper");
+    add("attach", attach_format(),
+        "The link carries the object from now on. The hand may touch it during the motion before");
+    add("detach", detach_format(),
+        "The object stays where it is. The hand may touch it during the next motion");
+    const Format<WaitBody> wait = *wait_format();
+    kinds_.push_back({{"wait_s"},
+                      [wait](const JsonNode& node, StepRequest& out) {
+                        WaitBody body;
+                        wait.read(node, body);
+                        out = {std::move(body.name), WaitRequest{body.time}};
+                      },
+                      wait.schema(Way::in)});
+    add("set_io", set_io_format(),
+        "Sets an output. The step ends when the device has reported the value");
+    add("wait_io", wait_io_format(), "Waits until a signal has the value");
+  }
   void read(const JsonNode& node, StepRequest& out) const override {
-    StepBody body;
-    body_format()->read(node, body);
-    const bool is_motion = body.trajectory || body.move_to;
-    for (const char* key : {"arm", "velocity_scaling_factor", "triggers"}) {
-      if (is_motion || !node.raw().is_object() || !node.raw().contains(key)) continue;
-      node.fault(
-          ProblemKind::invalid, "not-with-motion",
-          std::string("\"") + key + "\" belongs to a \"trajectory\" or \"move_to\": leave it out");
+    if (!node.is_object()) return;
+    for (const Kind& kind : kinds_) {
+      const auto is_given = [&](const char* key) { return node.has(key); };
+      if (std::ranges::any_of(kind.keys, is_given)) return kind.read(node, out);
     }
-    out.name = std::move(body.name);
-    if (body.gripper) {
-      out.what = std::move(*body.gripper);
-    } else if (body.attach) {
-      out.what = std::move(*body.attach);
-    } else if (body.detach) {
-      out.what = std::move(*body.detach);
-    } else if (body.wait) {
-      out.what = WaitRequest{*body.wait};
-    } else if (body.set_io) {
-      out.what = std::move(*body.set_io);
-    } else if (body.wait_io) {
-      out.what = std::move(*body.wait_io);
-    } else {
-      out.what = motion_of(body);
-    }
+    node.fault(ProblemKind::malformed, "missing-member",
+               "a step has one of: trajectory, move_to, gripper, attach, detach, wait_s, set_io, "
+               "wait_io");
   }
   void write(JsonWriter&, const StepRequest&) const override {
     throw std::logic_error("a step is never written");
   }
-  Schema schema(Way way) const override { return body_format()->schema(way); }
+  Schema schema(Way) const override {
+    Schema all = Schema::array();
+    for (const Kind& kind : kinds_) all.push_back(kind.schema);
+    return {{"oneOf", std::move(all)}};
+  }
+
+ private:
+  struct Kind {
+    std::vector<const char*> keys;
+    std::function<void(const JsonNode&, StepRequest&)> read;
+    Schema schema;
+  };
+  template <class T>
+  void add(const char* key, const FormatPtr<T>& format, const char* text) {
+    using Body = NamedStep<T>;
+    const Format<Body> body =
+        *object<Body>({name_part<Body>(), required(key, &Body::what, format, text)});
+    kinds_.push_back({{key},
+                      [body](const JsonNode& node, StepRequest& out) {
+                        Body read;
+                        body.read(node, read);
+                        out = {std::move(read.name), std::move(read.what)};
+                      },
+                      body.schema(Way::in)});
+  }
+
+  std::vector<Kind> kinds_;
 };
 
 }  // namespace
 
-FormatPtr<StepRequest> step_request_format() { return make_format<StepFormat>(); }
+FormatPtr<StepRequest> step_request_format() {
+  static const auto format =
+      named<StepRequest>("StepRequest", "A step of a job: a motion, or an action between motions.",
+                         make_format<StepFormat>());
+  return format;
+}
 
 }  // namespace armloom

@@ -23,6 +23,7 @@
 #include "server/messages/scene.h"
 #include "server/messages/session.h"
 #include "server/messages/signal.h"
+#include "server/messages/task_request.h"
 
 namespace armloom {
 namespace {
@@ -61,7 +62,8 @@ void read_batch(const JsonNode& node, Problems& faults) {
 }
 
 std::vector<Incoming> all_incoming() {
-  return {incoming("JobRequest", *job_request_format()),
+  return {incoming("StepRequest", *step_request_format()),
+          incoming("JobRequest", *job_request_format()),
           {"BatchRequest", batch_request_format()->schema(Way::in), read_batch},
           incoming("ObjectRequest", *object_request_format()),
           incoming("NamedObjectRequest", *named_object_request_format()),

@@ -274,9 +274,9 @@ TEST(Steps, AreReadInOrder) {
 TEST(Steps, AreRefusedWithPointers) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({})", "/steps/0"},
-      {R"({"wait_s": 1, "detach": {"object": "rod"}})", "/steps/0"},
+      {R"({"wait_s": 1, "detach": {"object": "rod"}})", "/steps/0/wait_s"},
       {R"({"wait_s": -1})", "/steps/0/wait_s"},
-      {R"({"wait_s": 1, "arm": "left"})", "/steps/0"},
+      {R"({"wait_s": 1, "arm": "left"})", "/steps/0/arm"},
       {R"({"attach": {"object": "rod"}})", "/steps/0/attach/link"},
       {R"({"wait_s": 1, "retry": 2})", "/steps/0/retry"},
       {R"({"move_to": {"named": "ready"}, "arm": "left",
