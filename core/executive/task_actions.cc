@@ -1,0 +1,162 @@
+// The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
+#include <algorithm>
+#include <utility>
+
+#include "core/executive/executive_impl.h"
+#include "core/executive/task_view.h"
+#include "core/jobs/waits.h"
+
+namespace armloom {
+
+// Does the action. Returns false if it is not done yet.
+Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
+  if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
+    if (!has_arm_of(task, *cell_->find_link(attach->link))) return false;
+    auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object,
+                            *cell_->find_link(attach->link), touch_of(*cell_, attach->touch));
+    if (!content) return failure(std::move(content.error()));
+    return changed_holding(task, attach->object, std::move(*content));
+  }
+  if (const auto* detach = std::get_if<DetachRequest>(&request.what)) {
+    const auto carrier = carrier_of(*scene_.scene(), detach->object);
+    if (carrier && !has_arm_of(task, *carrier)) return false;
+    auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object);
+    if (!content) return failure(std::move(content.error()));
+    return changed_holding(task, detach->object, std::move(*content));
+  }
+  if (const auto* wait = std::get_if<WaitRequest>(&request.what)) {
+    const TimePoint until = *task.since + wait->time;
+    if (clock_.now >= until) return true;
+    wake_at(until);
+    task.waits_on = {{.kind = Wait::Kind::action, .detail = "waits " + armloom::text_of(request)}};
+    return false;
+  }
+  if (const auto* io = std::get_if<SetIoRequest>(&request.what)) {
+    return set_output(task, io->signal, io->value);
+  }
+  const auto& io = std::get<WaitIoRequest>(request.what);
+  const SignalView& signal = signals_.views()[cell_->io.find_signal(io.signal)->index()];
+  if (signal.value == io.value) return true;
+  const std::string now = signal.value ? text_of(*signal.value) : "not known: " + signal.detail;
+  if (io.timeout) {
+    const TimePoint until = *task.since + *io.timeout;
+    if (clock_.now >= until) {
+      return failure(Problem{ProblemKind::conflict, "timeout", "/wait_io/timeout_s",
+                             io.signal + " was not " + text_of(io.value) + " within " +
+                                 seconds_text(*io.timeout) + "; it is " + now,
+                             now});
+    }
+    wake_at(until);
+  }
+  task.waits_on = {
+      {.kind = Wait::Kind::io,
+       .detail = io.signal + " is " + now + "; the step waits for " + text_of(io.value),
+       .signal = io.signal}};
+  return false;
+}
+
+// Returns true if no other job moves the arm of the link. Otherwise the task waits for that.
+bool Executive::Impl::has_arm_of(Task& task, LinkId link) {
+  const ArmId arm = *cell_->link(link).arm;
+  const auto head = scheduler_.head(arm);
+  const bool is_own = head && tasks_.told(*head) == task.id;
+  if (is_own && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;
+  task.waits_on = {
+      {.kind = Wait::Kind::action,
+       .arm = arm,
+       .detail = cell_->arm(arm).name +
+                 (scheduler_.stopped(arm) ? " is stopped" : " has another job first")}};
+  return false;
+}
+
+// An output is set when its device has reported the value. While there is no connection, the step
+// waits.
+bool Executive::Impl::set_output(Task& task, const std::string& name, const SignalValue& value) {
+  const SignalView& signal = signals_.views()[cell_->io.find_signal(name)->index()];
+  if (signal.is_connected && signal.value == value && !signal.commanded) return true;
+  if (signal.is_connected && signal.commanded != value) (void)signals_.command(name, value);
+  if (signal.value == value && !signal.commanded) return true;
+  const std::string why = signal.is_connected ? "has not reported the value yet" : signal.detail;
+  task.waits_on = {{.kind = Wait::Kind::io,
+                    .detail = "output " + name + ": device " + signal.device + ": " + why,
+                    .signal = name}};
+  return false;
+}
+
+Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& object,
+                                              PlanningScene::Content content) {
+  if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
+  StartLog* log = execution_.starts().log();
+  if (log == nullptr) return true;
+  task.awaits_record = true;
+  log->has_moved(task.id, place_of(*scene_.scene(), object), [this, id = task.id] {
+    note({ExecutiveInput::StartWritten{only_step(id)}});
+    if (Task* known = tasks_.find(id)) known->awaits_record = false;
+    go_on_with_tasks();
+  });
+  return true;
+}
+
+// An allowance stays between two motions, because the hand stays at the object.
+void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
+  const TouchOf before = std::exchange(task.touch, next);
+  for (const auto& [object, touch] : before) {
+    if (!next.contains(object)) change_touch(object, {});
+  }
+  for (const auto& [object, touch] : next) {
+    const auto same = before.find(object);
+    if (same == before.end() || same->second != touch) change_touch(object, touch);
+  }
+}
+
+// The task has failed or was canceled: its hand may be at the object. The allowance ends with the
+// next motion that succeeds on one of the task's arms.
+void Executive::Impl::leave_touch(Task& task) {
+  std::vector<ArmId> arms;
+  for (const JobId motion : task.motions()) {
+    const auto& moved = scheduler_.find(motion)->trajectory->arms();
+    arms.insert(arms.end(), moved.begin(), moved.end());
+  }
+  for (const auto& [object, touch] : std::exchange(task.touch, {})) touch_left_[object] = arms;
+}
+
+void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
+  for (auto left = touch_left_.begin(); left != touch_left_.end();) {
+    if (std::ranges::find_first_of(left->second, arms) == left->second.end()) {
+      ++left;
+      continue;
+    }
+    const std::string object = left->first;
+    left = touch_left_.erase(left);
+    change_touch(object, {});
+  }
+}
+
+void Executive::Impl::change_touch(const std::string& object, const Touch& touch) {
+  (void)scene_.change(touching(*scene_.scene(), object, touch));  // names and links are known
+}
+
+// Fires the triggers of motions that have come so far.
+void Executive::Impl::fire_triggers(const MotionReport& report) {
+  Task* task = tasks_.find(report.step.job);
+  if (task == nullptr || task->end) return;
+  for (TaskStep& step : task->steps) {
+    const auto* motion = std::get_if<MotionStepRequest>(&step.request.what);
+    if (step.job != report.step.job || motion == nullptr) continue;
+    const double duration_s = to_seconds(scheduler_.find(*step.job)->trajectory->duration());
+    while (step.triggers_fired < motion->triggers.size()) {
+      const TriggerRequest& next = motion->triggers[step.triggers_fired];
+      if (to_seconds(report.progress) < next.at * duration_s) break;
+      ++step.triggers_fired;
+      if (!signals_.command(next.signal, next.value)) {
+        publisher_.tell(
+            Alert{Alert::Level::error, "job " + jobs_.key(task->id) + ": trigger at " +
+                                           std::to_string(next.at) + ": output " + next.signal +
+                                           " is not connected, and was not set"},
+            clock_.now);
+      }
+    }
+  }
+}
+
+}  // namespace armloom
