@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kTouchMax = 100;
 
-FormatPtr<std::vector<std::string>> touch_format() {
+FormatPtr<std::vector<std::string>> touched_names() {
   return list(name(), {.most = kTouchMax, .noun = "names"});
 }
 
@@ -54,7 +54,7 @@ FormatPtr<AttachRequest> attach_format() {
   return object<Request>({
       required("object", &Request::object, name(), "Name of an object of the scene"),
       required("link", &Request::link, name(), "Link that carries the object, with its prefix"),
-      field("touch", &Request::touch, touch_format(),
+      field("touch", &Request::touch, touched_names(),
             "Links and objects that the object may touch until the next motion has ended, besides "
             "the hand"),
   });
@@ -64,7 +64,7 @@ FormatPtr<DetachRequest> detach_format() {
   using Request = DetachRequest;
   return object<Request>({
       required("object", &Request::object, name(), "Name of an object that an arm holds"),
-      field("touch", &Request::touch, touch_format(),
+      field("touch", &Request::touch, touched_names(),
             "Links and objects that the object may touch during the motion before, for example the "
             "table"),
   });

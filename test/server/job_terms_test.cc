@@ -125,7 +125,8 @@ TEST(JobTerms, AmendmentOfFixedMembersIsRefused) {
 }
 
 TEST(JobRequests, SchemaHasNoUnsupportedMembers) {
-  EXPECT_EQ(job_request_format()->schema(Way::in).dump().find("\"sub_trajectory\""), std::string::npos);
+  EXPECT_EQ(job_request_format()->schema(Way::in).dump().find("\"sub_trajectory\""),
+            std::string::npos);
 }
 
 }  // namespace
