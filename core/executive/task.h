@@ -47,7 +47,8 @@ struct Task {
   std::optional<TimePoint> since = {};     // the present action has begun
   std::vector<Wait> waits_on = {};         // of the present action
   TouchOf touch = {};                      // what objects may touch at present
-  bool awaits_record = false;              // StartLog::has_moved
+  bool awaits_record = false;              // StartLog::has_moved; ...
+  bool is_present_done = false;            // ... then the present step ends
   std::optional<TaskEnd> end = {};
 
   [[nodiscard]] const TaskStep* present() const { return at < steps.size() ? &steps[at] : nullptr; }

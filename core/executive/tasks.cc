@@ -97,6 +97,11 @@ void Executive::Impl::go_on_with_tasks() {
 // Returns true if the task has advanced.
 bool Executive::Impl::go_on(Task& task) {
   if (task.end || task.awaits_record) return false;
+  if (std::exchange(task.is_present_done, false)) {
+    task.since.reset();
+    ++task.at;
+    return true;
+  }
   if (task.at == task.steps.size()) {
     end_task(task, {JobState::succeeded, Reason::completed, "", clock_.now});
     return true;
@@ -124,6 +129,8 @@ bool Executive::Impl::go_on(Task& task) {
     if (is_news) tell_task(task.id);
     return false;
   }
+  task.is_present_done = task.awaits_record;
+  if (task.is_present_done) return false;
   task.since.reset();
   ++task.at;
   return true;

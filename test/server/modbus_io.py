@@ -167,9 +167,11 @@ def case_follows_a_register_that_flickers(plant):
     plant.start_device()
     plant.await_up()
     seen = set()
-    for i in range(200):
+    for i in range(3000):  # a loaded machine reads seldom
         plant.tell(f"set input_register 10 {i % 5}")
         seen.add(plant.io("level")["value"])
+        if i >= 200 and len(seen) >= 3:
+            break
     assert len(seen) >= 3, seen
     plant.tell("set input_register 10 77")
     wait_for(lambda: plant.io("level")["value"] == 77, "the last value")
