@@ -154,19 +154,6 @@ void Executive::Impl::job_changed(JobId id) {
   publisher_.tell_job(std::move(view), clock_.now);
 }
 
-void Executive::Impl::forget_oldest(JobId ended) {
-  for (const auto& [oldest, key] : jobs_.end(ended)) forget_job(oldest, key);
-}
-
-void Executive::Impl::forget_job(JobId id, const std::string& key) {
-  publisher_.forget(id, key);
-  const Task* task = tasks_.find(id);
-  for (const JobId motion : task == nullptr ? std::vector{id} : task->motions()) {
-    scheduler_.forget(motion);
-  }
-  tasks_.forget(id);
-}
-
 // Readers see how far a check has come that takes long. No event tells it: it is of this machine.
 void Executive::Impl::show_check() {
   constexpr Duration kShownAgain = std::chrono::milliseconds(250);
@@ -356,16 +343,6 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
 void Executive::Impl::signal_changed(SignalId signal) {
   publisher_.tell_signal(signal, clock_.now);
   step(input_of(signals_.views()[signal.index()]));
-}
-
-// ---- What is to be seen ----
-
-std::optional<JobView> Executive::Impl::job(const std::string& key) const {
-  const auto id = jobs_.find(key);
-  if (!id) return std::nullopt;
-  JobView view = publisher_.view(*id);
-  (void)questions_.tell_check(view);
-  return view;
 }
 
 }  // namespace armloom

@@ -64,12 +64,6 @@ std::vector<LinkId> links_of_hand(const Cell& cell, LinkId link) {
 Result<Content> attached(const PlanningScene& scene, const Configuration& measured,
                          const std::string& object, LinkId link, Touch touch) {
   const Cell& cell = scene.cell();
-  if (!cell.link(link).arm) {
-    return failure(Problem{ProblemKind::invalid, "link-not-of-arm", "/attach/link",
-                           "no arm moves link " + cell.link(link).name +
-                               ", so it cannot carry an object: name a link of a hand",
-                           cell.link(link).name});
-  }
   LinkPoses X_WL;
   forward_kinematics(cell, measured, X_WL);
   Content content = content_of(scene);

@@ -28,8 +28,8 @@ struct Touch {
 // The link carries the object from now on, where both are. An object that another link carries
 // changes hands. `measured`: positions of all joints. Problems, with pointers into an attach step:
 // - "unknown-object": neither in the scene nor carried
-// - "link-not-of-arm": no arm moves the link
 // - "too-far": no part of the hand is within kAttachWithin_m
+// Precondition: an arm moves the link.
 [[nodiscard]] Result<PlanningScene::Content> attached(const PlanningScene& scene,
                                                       const Configuration& measured,
                                                       const std::string& object, LinkId link,

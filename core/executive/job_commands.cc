@@ -1,4 +1,4 @@
-// Commands to one job that has not ended.
+// One job: its view, commands to it, and its end.
 #include <utility>
 #include <vector>
 
@@ -64,6 +64,27 @@ Result<JobView> Executive::Impl::replan(const std::string& key) {
   }
   step(Replan{motion});
   return publisher_.view(*id);
+}
+
+void Executive::Impl::forget_oldest(JobId ended) {
+  for (const auto& [oldest, key] : jobs_.end(ended)) forget_job(oldest, key);
+}
+
+void Executive::Impl::forget_job(JobId id, const std::string& key) {
+  publisher_.forget(id, key);
+  const Task* task = tasks_.find(id);
+  for (const JobId motion : task == nullptr ? std::vector{id} : task->motions()) {
+    scheduler_.forget(motion);
+  }
+  tasks_.forget(id);
+}
+
+std::optional<JobView> Executive::Impl::job(const std::string& key) const {
+  const auto id = jobs_.find(key);
+  if (!id) return std::nullopt;
+  JobView view = publisher_.view(*id);
+  (void)questions_.tell_check(view);
+  return view;
 }
 
 }  // namespace armloom

@@ -87,4 +87,11 @@ std::optional<std::string> rest_beside_path(const State& state, const Step& step
   return std::nullopt;
 }
 
+void decide_again_beside(Transitions& state, ArmId arm) {
+  for (const Step& step : state->jobs.past_queue_now()) {
+    if (!step.has_authority() || !state->graph.is_held_by(step.id, {arm})) continue;
+    state.brake(step, {.then = AfterStop::Then::decide_again});
+  }
+}
+
 }  // namespace armloom

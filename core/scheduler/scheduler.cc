@@ -74,14 +74,6 @@ void take(Transitions& state, const Unlocated& input) {
   explain_again(state, input.may_meet);
 }
 
-// The arm rests elsewhere: motions that wait for its rest get new orders.
-void decide_again_beside(Transitions& state, ArmId arm) {
-  for (const Step& step : state->jobs.past_queue_now()) {
-    if (!step.has_authority() || !state->graph.is_held_by(step.id, {arm})) continue;
-    state.brake(step, {.then = AfterStop::Then::decide_again});
-  }
-}
-
 void take(Transitions& state, const Located& input) {
   explain_again(state, state.arms().set_located(input.arm));
   const auto& queue = state->jobs.queues()[input.arm];

@@ -216,30 +216,34 @@ TEST(Resume, AcceptsAnArmThatRestsAheadOfItsTeam) {
 
 // ---- What happens between a decision and the arm ----
 
+// A job is dispatched, and the scene changes before it moves.
+struct InQuestion : Bench {
+  InQuestion() : Bench(1) {
+    job = submit(move({0}, 0, 1, 2s), at(0ms));
+    answer_free(at(1ms));
+    step(SceneChanged{{ArmId{0}}}, at(2ms));
+  }
+  JobId job{0};
+};
+
 TEST(BeforeItMoves, ANewObjectKeepsTheJobFromStarting) {
-  Bench bench(1);
-  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
-  bench.answer_free(at(1ms));
-  bench.step(SceneChanged{{ArmId{0}}}, at(2ms));
+  InQuestion bench;
   bench.answer_conflict(at(3ms), Conflict::With::scene);
-  EXPECT_THAT(bench.braked, ElementsAre(job));
-  bench.stopped(job, 0ms, at(4ms));
+  EXPECT_THAT(bench.braked, ElementsAre(bench.job));
+  bench.stopped(bench.job, 0ms, at(4ms));
   EXPECT_THAT(bench.dispatched, SizeIs(1));
   bench.answer_conflict(at(5ms), Conflict::With::scene);
   EXPECT_THAT(bench.dispatched, SizeIs(1));
-  EXPECT_EQ(bench.state(job), JobState::queued);
+  EXPECT_EQ(bench.state(bench.job), JobState::queued);
 }
 
 TEST(BeforeItMoves, ASelfCollisionBrakesItFirst) {
-  Bench bench(1);
-  const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
-  bench.answer_free(at(1ms));
-  bench.step(SceneChanged{{ArmId{0}}}, at(2ms));
+  InQuestion bench;
   bench.answer_conflict(at(3ms), Conflict::With::self);
-  EXPECT_THAT(bench.braked, ElementsAre(job));
-  bench.stopped(job, 0ms, at(4ms));
-  EXPECT_EQ(bench.state(job), JobState::failed);
-  EXPECT_THAT(bench.released, ElementsAre(job));
+  EXPECT_THAT(bench.braked, ElementsAre(bench.job));
+  bench.stopped(bench.job, 0ms, at(4ms));
+  EXPECT_EQ(bench.state(bench.job), JobState::failed);
+  EXPECT_THAT(bench.released, ElementsAre(bench.job));
 }
 
 TEST(BeforeItMoves, AMovedArmDoesNotStart) {

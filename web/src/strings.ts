@@ -644,7 +644,7 @@ export const kText = {
   },
 
   io: {
-    none: 'This cell has no inputs or outputs. Name them in the member "io" of the cell file.',
+    none: 'This cell has no inputs or outputs. Add them to "io" in the cell file.',
     hint: 'Inputs and outputs as seen from the server. Signals of a device show what the device reported last.',
     past: 'Past signals cannot be set.',
     simulated: (direction: string) => `${direction}, simulated`,
