@@ -136,10 +136,6 @@ class Search {
   // is unusable.
   std::optional<PlanRefusal> check_ends() {
     if (auto refusal = outside(cell_, arm_, start_, kStart)) return refusal;
-    if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
-      return PlanRefusal{Reason::start_in_collision, "at the start " + in_words(answer),
-                         answer.proximity};
-    }
     std::optional<PlanRefusal> first;
     for (std::size_t g = 0; g < request_.goals.size(); ++g) {
       auto refusal = outside(cell_, arm_, request_.goals[g], kGoal);
@@ -153,6 +149,15 @@ class Search {
                               answer.proximity};
       }
       if (!first) first = std::move(refusal);
+    }
+    LineChecker::Answer at_start = lines_.state(start_);
+    if (at_start.kind != LineChecker::Kind::free) {
+      lines_.let_part_from(start_);
+      at_start = lines_.state(start_);
+    }
+    if (at_start.kind != LineChecker::Kind::free) {
+      return PlanRefusal{Reason::start_in_collision, "at the start " + in_words(at_start),
+                         at_start.proximity};
     }
     std::ranges::stable_sort(goals_, {},
                              [&](std::size_t g) { return (request_.goals[g] - start_).norm(); });

@@ -267,7 +267,7 @@ TEST(SceneLinks, ParentOfAMountFrameWithoutShapeIsTheMount) {
 }
 
 // For a pair that is too close at the start and separates, the bound claims only a share of its
-// first distance.
+// first distance at the largest deviation.
 TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);
@@ -285,7 +285,9 @@ TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
       const Verdict parts = motion_checker.judge(asked);
       ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
       ASSERT_TRUE(parts.clearance_bound);
-      EXPECT_NEAR(parts.clearance_bound->apart_m, OrientedDiagram::kPartingShare * 0.01, 1e-6);
+      // The tracking error of two joints (0.001 rad each) moves the tip by up to 1 mm.
+      EXPECT_LT(parts.clearance_bound->apart_m, kPartingShare * 0.01);
+      EXPECT_GT(parts.clearance_bound->apart_m, kPartingShare * 0.009);
       asked.candidates = {
           {StepId{JobId{1}}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
       const ClearanceBound all = motion_checker.judge(asked).clearance_bound.value();

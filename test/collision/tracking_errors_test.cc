@@ -42,6 +42,23 @@ TEST(TrackingErrors, WidenMotionsAndRestsOfTheirRobotOnly) {
   EXPECT_EQ(rails.passes(kSecond, kX, 0.0), Verdict::Kind::free);
 }
 
+// Arms at rest that keep the clearance only without deviations may part, and may not come closer.
+TEST(TrackingErrors, LetArmsPartThatOnlyJustKeepTheClearance) {
+  Rails rails;
+  const double gap_m = kApart_m + kTracking_m;
+  rails.question.rest[1] = 0.0;
+  const Motion away = rails.motion(1, {kX}, -gap_m, -1.0);
+  const Motion across = rails.motion(1, {kX}, -gap_m, gap_m);
+  rails.question.candidates = {away};
+  EXPECT_TRUE(rails.judge().regions.empty());
+  rails.question.candidates = {across};
+  EXPECT_FALSE(rails.judge().regions.empty());
+  rails.question.method = Swept{kTracking_m};
+  EXPECT_NE(rails.judge().kind, Verdict::Kind::free);
+  rails.question.candidates = {away};
+  EXPECT_EQ(rails.judge().kind, Verdict::Kind::free);
+}
+
 TEST(TrackingErrors, AreInTheCertificatesByArm) {
   LooseRails rails;
   rails.question.candidates = {rails.motion(1, {kX, kY}, 0.5, 1.0)};

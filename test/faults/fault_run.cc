@@ -20,7 +20,7 @@ constexpr Duration kOperator = 100ms;       // between two looks of the operator
 constexpr Duration kReacts = 2s;            // of the operator
 constexpr Duration kWaits = 5s;             // for an arm in which the fault can begin
 constexpr Duration kRemovesAfter = 15s;     // a fault that stops no arm
-constexpr Duration kPatience = 240s;        // after the last job
+constexpr Duration kPatience = 3600s;        // after the last job
 constexpr std::size_t kStatesMax = 20'000;  // that are audited at once
 
 // Collects what an audit needs, and what the monitor does.

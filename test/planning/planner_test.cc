@@ -76,6 +76,23 @@ TEST(Planner, ChoosesTheNearestReachableGoal) {
   EXPECT_EQ(way->goal, 2u);
 }
 
+// An arm that rests too close to another one can be moved away. It may not end there.
+TEST(Planner, LeavesAnArmThatIsTooClose) {
+  rails::Rails rails;
+  const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  const PlanningScenePtr scene = *PlanningScene::build(rails.cell);
+  rails.question.rest[1] = 0.0;  // y, on x's rail
+  for (const double gap_m : {rails::kApart_m + rails::kTracking_m, rails::kApart_m - 0.01}) {
+    PlanRequest request{.arm = rails::kX, .at = rails.question.rest, .goals = {at(-1.0)}};
+    request.at[0] = -gap_m;
+    const auto way = Planner(scene).plan(request);
+    ASSERT_TRUE(way) << way.error().detail;
+    EXPECT_EQ(way->points.size(), 2u);
+    request.goals = {at(-rails::kApart_m - 0.0005)};
+    EXPECT_EQ(Planner(scene).plan(request).error().reason, Reason::goal_in_collision);
+  }
+}
+
 TEST(Planner, ReportsWhyThereIsNoPlan) {
   const WallCell wall;
   const Planner planner(wall.scene);

@@ -158,6 +158,14 @@ std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<Moti
   return std::nullopt;
 }
 
+void LineChecker::let_part_from(const Eigen::VectorXd& from) {
+  const auto tube = tube_along(from, from);
+  for (Counterpart& other : counterparts_) {
+    if (other.tube == nullptr || !other.tube->kinematics().arm()) continue;
+    let_part(other.pairs, pair_with(other, tube).near_at(Duration{}, Duration{}));
+  }
+}
+
 bool LineChecker::is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
   return !search(tube_along(from, to), (to - from).lpNorm<Eigen::Infinity>());
 }

@@ -45,6 +45,9 @@ class LineChecker {
   // one state.
   [[nodiscard]] Answer line(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
   [[nodiscard]] Answer state(const Eigen::VectorXd& q) { return line(q, q); }
+  // Lets other arms that are too close to the arm at `from` move apart (let_part) in all later
+  // answers.
+  void let_part_from(const Eigen::VectorXd& from);
   // Returns true if line() would return `free`; faster, without evidence.
   [[nodiscard]] bool is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 

@@ -112,6 +112,16 @@ void MotionTube::configuration(Duration time, double* q) {
   }
 }
 
+std::shared_ptr<MotionTube> MotionTube::still_at(Duration time) {
+  const std::shared_ptr<MotionTube> still(new MotionTube(geometry_, Duration{}, scratch_));
+  still->rest_.resize(rest_.size());
+  configuration(time, still->rest_.data());
+  still->column_.assign(rest_.size(), -1);
+  still->shift_.assign(rest_.size(), 0.0);
+  still->error_ = error_;
+  return still;
+}
+
 void MotionTube::place(std::span<const int> nodes) {
   placements_.resize(size());
   int batch[kLanes];

@@ -93,8 +93,14 @@ class MotionTube : public TimeTree {
 
   // Writes the configuration at this time, one value per ArmKinematics::joints().
   void configuration(Duration time, double* q);
+  // Returns the arm at rest in this configuration, with the same tracking error: one node.
+  [[nodiscard]] std::shared_ptr<MotionTube> still_at(Duration time);
 
  private:
+  MotionTube(std::shared_ptr<const ArmGeometry> geometry, Duration duration,
+             std::shared_ptr<Scratch> scratch)
+      : TimeTree(duration), geometry_(std::move(geometry)), scratch_(std::move(scratch)) {}
+
   struct Placement {  // of a node
     bool placed = false;
     std::size_t block = 0;

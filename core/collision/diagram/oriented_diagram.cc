@@ -85,13 +85,10 @@ bool OrientedDiagram::is_self(const CoordinationDiagram::Witness& found) const {
 
 OrientedDiagram OrientedDiagram::parting_at(Duration now_a, Duration now_b) const {
   if (turned_) std::swap(now_a, now_b);
-  const std::vector<TubePair::PairDistance> close = cells_->pair().too_close_at(now_a, now_b);
-  if (close.empty()) return {};
+  const std::vector<TubePair::PairDistance> near = cells_->pair().near_at(now_a, now_b);
+  if (near.empty()) return {};
   auto parting = std::make_shared<Parting>(Parting{*setting_.pairs, std::nullopt});
-  parting->pairs.set_each_limit([&](const NarrowPair& pair) {
-    const auto found = std::ranges::find(close, pair.pair, &TubePair::PairDistance::pair);
-    return found == close.end() ? pair.limit_m : std::max(kPartingShare * found->distance_m, 1e-9);
-  });
+  let_part(parting->pairs, near);
   const TubePair::Setting setting{setting_.bodies, &parting->pairs, setting_.scratch};
   parting->cells.emplace(cells_->pair().with(setting));
   OrientedDiagram apart(*parting->cells, setting, turned_);

@@ -40,10 +40,8 @@ class OrientedDiagram {
   [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Witness& found) const;
   [[nodiscard]] bool is_self(const CoordinationDiagram::Witness& found) const;
 
-  // Returns a new diagram for pairs that are too close now and may part. Each of these pairs must
-  // keep kPartingShare of its present distance; other pairs must keep their limits. Empty if no
-  // pair is too close.
-  inline static constexpr double kPartingShare = 0.8;
+  // Returns a new diagram for pairs that are too close now and may part (let_part). Empty if no
+  // pair is too close (TubePair::near_at).
   [[nodiscard]] OrientedDiagram parting_at(Duration now_a, Duration now_b) const;
   // Lowers the bound to the smallest limits of this diagram's pairs.
   void lower(ClearanceBound& bound) const;

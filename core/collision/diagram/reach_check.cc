@@ -11,8 +11,6 @@
 namespace armloom {
 namespace {
 
-constexpr double kPartingShare = 0.8;  // as in OrientedDiagram
-
 struct Times {
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
@@ -113,11 +111,7 @@ std::optional<Proximity> ReachCheck::closest(const PairSet& pairs, const Reach& 
   PairSet parting;
   if (!close.empty()) {
     parting = pairs;
-    parting.set_each_limit([&](const NarrowPair& pair) {
-      const auto found = std::ranges::find(close, pair.pair, &TubePair::PairDistance::pair);
-      return found == close.end() ? pair.limit_m
-                                  : std::max(kPartingShare * found->distance_m, kTouching_m);
-    });
+    let_part(parting, close);
     blocked = blocked_in(CoordinationDiagram(tubes.with({&bodies, &parting, scratch_})));
     if (blocked.empty()) return std::nullopt;
   }

@@ -121,6 +121,36 @@ std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Dura
   return close;
 }
 
+std::vector<TubePair::PairDistance> TubePair::near_at(Duration time_a, Duration time_b) {
+  const auto a = a_->still_at(time_a);
+  TubePair still(setting_, a, is_self() ? a : b_->still_at(time_b));
+  const Nodes nodes{TimeTree::root(), TimeTree::root()};
+  still.filter({&nodes, 1});
+  std::vector<PairDistance> near;
+  for (const Undecided& u : still.undecided(0)) {
+    const NarrowPair& pair = still.narrow(u.narrow, u.box);
+    const double enough_m = u.limit_m + u.moves_m();
+    const double distance_m = still.distance(pair, nodes, enough_m);
+    if (distance_m >= enough_m) continue;
+    const double least_m = std::max(distance_m - u.moves_m(), 0.0);
+    const auto known = std::ranges::find(near, pair.pair, &PairDistance::pair);
+    if (known == near.end()) {
+      near.push_back({pair.pair, least_m});
+    } else {  // another capsule of this pair
+      known->distance_m = std::min(known->distance_m, least_m);
+    }
+  }
+  return near;
+}
+
+void let_part(PairSet& pairs, std::span<const TubePair::PairDistance> near) {
+  pairs.set_each_limit([&](const NarrowPair& pair) {
+    const auto found = std::ranges::find(near, pair.pair, &TubePair::PairDistance::pair);
+    if (found == near.end()) return pair.limit_m;
+    return std::min(pair.limit_m, std::max(kPartingShare * found->distance_m, kTouching_m));
+  });
+}
+
 TubePair::PairDistance TubePair::closest_at(Duration time_a, Duration time_b) {
   place(time_a, time_b);
   PairDistance closest{PairId{0}, std::numeric_limits<double>::infinity()};

@@ -90,6 +90,9 @@ class TubePair {
   [[nodiscard]] double placed_distance(const NarrowPair& pair, double limit_m) const;
   // Return all pairs that are closer than their limits at these times, or the closest pair.
   [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
+  // Returns all pairs that may be closer than their limits at these times, as the joints deviate by
+  // up to the tracking errors. Their distances are those with the largest deviations, at least 0.
+  [[nodiscard]] std::vector<PairDistance> near_at(Duration time_a, Duration time_b);
   [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 
  private:
@@ -109,5 +112,10 @@ class TubePair {
   std::shared_ptr<MotionTube> a_;
   std::shared_ptr<MotionTube> b_;
 };
+
+// Lets pairs move apart that are too close: each of them must keep kPartingShare of its distance
+// instead of its limit.
+inline constexpr double kPartingShare = 0.8;
+void let_part(PairSet& pairs, std::span<const TubePair::PairDistance> near);
 
 }  // namespace armloom
