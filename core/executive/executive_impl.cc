@@ -143,7 +143,7 @@ void Executive::Impl::job_changed(JobId id) {
     questions_.plans().give_up(id);
     questions_.give_up(id);
     execution_.forget(changed);
-    if (changed.state() == JobState::succeeded) clear_left_touch(changed.trajectory->arms());
+    if (changed.trajectory) clear_left_touch(changed.trajectory->arms());
   }
   if (Task* task = tasks_.find(id)) return motion_changed(*task, id);
   JobView view = publisher_.view(id);

@@ -110,9 +110,9 @@ class Executive::Impl {
   Result<bool> changed_holding(Task& task, const std::string& object,
                                PlanningScene::Content content);
   void set_touch(Task& task, const TouchOf& next);
-  void leave_touch(Task& task);
   void clear_left_touch(const std::vector<ArmId>& arms);
-  void change_touch(const std::string& object, const Touch& touch);
+  [[nodiscard]] bool is_clear(const std::string& object, const std::vector<ArmId>& arms) const;
+  void show_touch(const std::string& object);
   void fire_triggers(const MotionReport& report);
   void end_task(Task& task, TaskEnd end);
   void fail_task(Task& task, Reason reason, std::string detail);
@@ -164,8 +164,12 @@ class Executive::Impl {
   TimePoint task_wakes_at_ = TimePoint::max();  // a wait of a step is over
   std::set<JobId> tasks_at_end_;                // their last motion has ended
   bool tasks_are_busy_ = false;                 // go_on_with_tasks() runs
-  // Objects that the hands of ended tasks may still touch, with their arms.
-  std::map<std::string, std::vector<ArmId>> touch_left_;
+  // What ended steps allowed to touch, by object, while one of their arms has not left the object.
+  struct TouchLeft {
+    std::vector<ArmId> arms;
+    Touch touch;
+  };
+  std::map<std::string, TouchLeft> touch_left_;
 };
 
 }  // namespace armloom

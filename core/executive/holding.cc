@@ -45,7 +45,20 @@ double from_hand(const PlanningScene& scene, const LinkPoses& X_WL, const std::s
   return nearest;
 }
 
+template <typename T>
+void add_to(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  std::ranges::sort(all);
+  const auto same = std::ranges::unique(all);
+  all.erase(same.begin(), same.end());
+}
+
 }  // namespace
+
+void Touch::add(const Touch& more) {
+  add_to(links, more.links);
+  add_to(objects, more.objects);
+}
 
 std::optional<LinkId> carrier_of(const PlanningScene& scene, const std::string& object) {
   const auto held = std::ranges::find_if(scene.attachments(), carries(object));
@@ -133,6 +146,18 @@ Content touching(const PlanningScene& scene, const std::string& object, Touch to
   held->touch = std::move(touch.links);
   held->touch_objects = std::move(touch.objects);
   return content;
+}
+
+Touch touch_in(const PlanningScene& scene, const std::string& object) {
+  Touch touch;
+  const auto held = std::ranges::find_if(scene.attachments(), carries(object));
+  if (held != scene.attachments().end()) {
+    touch.add({held->touch, held->touch_objects});
+    return touch;
+  }
+  const auto allowed = std::ranges::find(scene.touch(), object, &AllowedTouch::object);
+  if (allowed != scene.touch().end()) touch.add({allowed->links});
+  return touch;
 }
 
 HeldView place_of(const PlanningScene& scene, const std::string& object) {

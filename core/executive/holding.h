@@ -20,6 +20,8 @@ struct Touch {
   std::vector<LinkId> links = {};
   std::vector<std::string> objects = {};
 
+  // Adds what is not there yet. Afterwards, both lists are ascending.
+  void add(const Touch& more);
   bool operator==(const Touch&) const = default;
 };
 
@@ -42,6 +44,9 @@ struct Touch {
 // The object, carried or not, may touch only this. Ignores an unknown object.
 [[nodiscard]] PlanningScene::Content touching(const PlanningScene& scene, const std::string& object,
                                               Touch touch);
+
+// Returns what the object, carried or not, may touch at present; lists are ascending.
+[[nodiscard]] Touch touch_in(const PlanningScene& scene, const std::string& object);
 
 // Returns the object's place. Precondition: the object is in the scene, or carried.
 [[nodiscard]] HeldView place_of(const PlanningScene& scene, const std::string& object);

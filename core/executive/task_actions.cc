@@ -1,7 +1,9 @@
 // The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "core/collision/check/line_checker.h"
 #include "core/executive/executive_impl.h"
 #include "core/executive/task_view.h"
 #include "core/jobs/waits.h"
@@ -86,6 +88,7 @@ bool Executive::Impl::set_output(Task& task, const std::string& name, const Sign
 Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& object,
                                               PlanningScene::Content content) {
   if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
+  task.touch[object] = touch_in(*scene_.scene(), object);
   StartLog* log = execution_.starts().log();
   if (log == nullptr) return true;
   task.awaits_record = true;
@@ -97,43 +100,62 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
   return true;
 }
 
-// An allowance stays between two motions, because the hand stays at the object.
+// Sets what the task allows to touch. What it no longer allows stays allowed until the hand has
+// left the object: otherwise the arm could not move away.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
-  const TouchOf before = std::exchange(task.touch, next);
-  for (const auto& [object, touch] : before) {
-    if (!next.contains(object)) change_touch(object, {});
-  }
-  for (const auto& [object, touch] : next) {
-    const auto same = before.find(object);
-    if (same == before.end() || same->second != touch) change_touch(object, touch);
-  }
-}
-
-// The task has failed or was canceled: its hand may be at the object. The allowance ends with the
-// next motion that succeeds on one of the task's arms.
-void Executive::Impl::leave_touch(Task& task) {
   std::vector<ArmId> arms;
   for (const JobId motion : task.motions()) {
     const auto& moved = scheduler_.find(motion)->trajectory->arms();
     arms.insert(arms.end(), moved.begin(), moved.end());
   }
-  for (const auto& [object, touch] : std::exchange(task.touch, {})) touch_left_[object] = arms;
+  std::set<std::string> changed;
+  for (const auto& [object, touch] : std::exchange(task.touch, next)) {
+    changed.insert(object);
+    TouchLeft& left = touch_left_[object];
+    left.arms = arms;
+    left.touch.add(touch);  // is_clear() ignores what is allowed anyway
+  }
+  for (const auto& [object, touch] : next) changed.insert(object);
+  for (const std::string& object : changed) show_touch(object);
+  clear_left_touch(arms);
 }
 
+// Ends the allowances of ended steps of these arms, for objects that the arms have left.
 void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
   for (auto left = touch_left_.begin(); left != touch_left_.end();) {
-    if (std::ranges::find_first_of(left->second, arms) == left->second.end()) {
+    const auto& [object, of] = *left;
+    const bool is_of_these = std::ranges::find_first_of(of.arms, arms) != of.arms.end();
+    if (!is_of_these || !is_clear(object, of.arms)) {
       ++left;
       continue;
     }
-    const std::string object = left->first;
+    const std::string cleared = object;
     left = touch_left_.erase(left);
-    change_touch(object, {});
+    show_touch(cleared);
   }
 }
 
-void Executive::Impl::change_touch(const std::string& object, const Touch& touch) {
-  (void)scene_.change(touching(*scene_.scene(), object, touch));  // names and links are known
+// Returns true if the arms can move from where they rest without the allowances of ended steps.
+bool Executive::Impl::is_clear(const std::string& object, const std::vector<ArmId>& arms) const {
+  const PlanningScene& scene = *scene_.scene();
+  const auto without = scene.with(touching(scene, object, tasks_.touch_of(object)));
+  if (!without) return true;  // the object is gone
+  const Configuration& measured = execution_.motions().measured();
+  return std::ranges::all_of(arms, [&](ArmId arm) {
+    return LineChecker(*without, arm, measured, TrackingErrors(*cell_))
+               .state(joints_of(measured, cell_->arm(arm).joints))
+               .kind == LineChecker::Kind::free;
+  });
+}
+
+// Allows in the scene what the steps allow at present, and what ended steps left.
+void Executive::Impl::show_touch(const std::string& object) {
+  Touch touch = tasks_.touch_of(object);
+  const auto left = touch_left_.find(object);
+  if (left != touch_left_.end()) touch.add(left->second.touch);
+  const PlanningScene& scene = *scene_.scene();
+  if (touch_in(scene, object) == touch) return;
+  (void)scene_.change(touching(scene, object, std::move(touch)));  // names and links are known
 }
 
 // Fires the triggers of motions that have come so far.

@@ -188,11 +188,7 @@ void Executive::Impl::end_task(Task& task, TaskEnd end) {
     const Step* step = scheduler_.find(*next);
     if (step != nullptr && !step->has_ended()) this->step(Cancel{*next});
   }
-  if (task.end->state == JobState::succeeded) {
-    set_touch(task, {});
-  } else {
-    leave_touch(task);
-  }
+  set_touch(task, {});
   count_.end_of_a_job(clock_.now);
   tell_task(task.id);
   forget_oldest(task.id);

@@ -52,6 +52,18 @@ std::string in_words(const LineChecker::Answer& answer) {
   return armloom::in_words(*answer.proximity, answer.moves_m);
 }
 
+// Returns the joints inside their limits. A measured arm at a limit may exceed it a little.
+Eigen::VectorXd inside(const Cell& cell, const Arm& arm, Eigen::VectorXd q) {
+  for (std::size_t j = 0; j < arm.joints.size(); ++j) {
+    const Joint& joint = cell.joint(arm.joints[j]);
+    double& value = q[static_cast<Eigen::Index>(j)];
+    const double nearest = std::clamp(value, joint.has_lower() ? joint.lower : value,
+                                      joint.has_upper() ? joint.upper : value);
+    if (std::abs(nearest - value) <= cell.execution.start_tolerance_rad) value = nearest;
+  }
+  return q;
+}
+
 // Returns the range in which samples are drawn. A joint without limits has a range of half a turn
 // beyond the start and the goals.
 JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start,
@@ -76,13 +88,17 @@ class Search {
       : request_(request),
         cell_(scene->cell()),
         arm_(cell_.arm(request.arm)),
-        start_(joints_of(request.at, arm_.joints)),
+        start_(inside(cell_, arm_, joints_of(request.at, arm_.joints))),
         lines_(scene, request.arm, request.at, TrackingErrors(cell_), request.left_out) {}
 
   tl::expected<JointWay, PlanRefusal> run() {
     if (auto refusal = check_ends()) return refuse(*std::move(refusal));
     for (const std::size_t goal : goals_) {
       if (is_free(start_, request_.goals[goal])) return way({start_, request_.goals[goal]});
+    }
+    if (start_.size() == 1) {  // then no other path exists
+      const auto answer = lines_.line(start_, request_.goals[goals_.front()]);
+      return refuse({Reason::not_found, "on the way, " + in_words(answer), answer.proximity});
     }
     TreeSearch search{room_of(cell_, arm_, start_, request_.goals),
                       start_,

@@ -27,7 +27,7 @@ struct PlanRefusal {
     start_in_collision,  // something is too close at the start
     goal_in_collision,   // something is too close at every goal; `proximity`: at the first
     goal_not_reached,    // inverse kinematics found no solution (pose_goal.h)
-    not_found,           // no path within the budget; one may exist
+    not_found,           // no path within the budget; one may exist, except for one joint
     line_broken,         // the arm cannot follow the link's straight line (tool_line.h)
     line_blocked,        // something is too close to the arm on that line
     cancelled,
@@ -52,7 +52,9 @@ struct PlanRefusal {
 // Asks for a path of one arm to any of several goals, while everything else rests.
 struct PlanRequest {
   ArmId arm;
-  Configuration at;                    // of the whole cell: the arm's own joints are the start
+  // Of the whole cell. The arm's own joints are the start; a path begins inside their limits if they
+  // exceed these by at most Execution::start_tolerance_rad.
+  Configuration at;
   std::vector<Eigen::VectorXd> goals;  // at least one; a row for each joint of the arm
   std::vector<ArmId> left_out = {};    // other arms that are ignored
   std::uint64_t seed = 1;

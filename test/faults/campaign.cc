@@ -22,21 +22,22 @@ struct Options {
   std::string fault;   // all if empty
   std::string policy;  // by seed if empty
   std::uint64_t seeds = 100, first = 1;
-  bool monitored = true, verbose = false;
+  bool monitored = true, tasks = false, verbose = false;
   double hours = 0.0;  // above zero: long runs instead of the list
   bool faulty = true;
 };
 
 struct Row {
   std::size_t runs = 0, contacts = 0, possible = 0, jobs = 0, succeeded = 0, waiting = 0,
-              silent = 0;
+              silent = 0, lost = 0;                          // lost: runs
   std::size_t stops = 0, stops_of_faulty = 0, needless = 0;  // needless: runs
   double closest_m = 1e9, simulated_s = 0.0, cpu_s = 0.0;
   std::uint64_t refusals = 0;
 
   Row& operator+=(const Row& other) {
     runs += other.runs, contacts += other.contacts, possible += other.possible, jobs += other.jobs;
-    succeeded += other.succeeded, waiting += other.waiting, silent += other.silent;
+    succeeded += other.succeeded, waiting += other.waiting, silent += other.silent,
+        lost += other.lost;
     stops += other.stops, stops_of_faulty += other.stops_of_faulty, needless += other.needless;
     closest_m = std::min(closest_m, other.closest_m);
     simulated_s += other.simulated_s, cpu_s += other.cpu_s, refusals += other.refusals;
@@ -73,6 +74,7 @@ Row run(const FaultRunPlan& plan, const Options& options) {
           .succeeded = result.succeeded,
           .waiting = result.waiting,
           .silent = result.silent.size(),
+          .lost = result.lost.empty() ? 0U : 1U,
           .stops = result.stops.size(),
           .stops_of_faulty = result.stops_of_faulty,
           .closest_m = result.closest_m,
@@ -98,6 +100,10 @@ Row run(const FaultRunPlan& plan, const Options& options) {
                  seed, fault, to_seconds(result.contact->time), result.contact->body_a.c_str(),
                  result.contact->body_b.c_str());
   }
+  for (const std::string& part : result.lost) {
+    std::fprintf(stderr, "lost: %s seed %llu %s: %s\n", plan.policy.c_str(), seed, fault,
+                 part.c_str());
+  }
   for (const std::string& job : result.silent) {
     std::fprintf(stderr, "silent: %s seed %llu %s: %s\n", plan.policy.c_str(), seed, fault,
                  job.c_str());
@@ -111,6 +117,7 @@ FaultRunPlan plan_of(std::uint64_t seed, const Options& options) {
           .policy = options.policy.empty() ? kPolicies[seed % kPolicies.size()] : options.policy,
           .faulty = options.faulty,
           .monitored = options.monitored,
+          .tasks = options.tasks,
           .verbose = options.verbose};
 }
 
@@ -163,7 +170,7 @@ int campaign(const Options& options) {
   print("all", all);
   const bool calm = options.faulty || all.stops + all.stops_of_faulty == 0;
   const bool few = 100 * all.needless <= all.runs;
-  return all.contacts == 0 && all.silent == 0 && few && calm ? 0 : 1;
+  return all.contacts == 0 && all.silent == 0 && all.lost == 0 && few && calm ? 0 : 1;
 }
 
 }  // namespace
@@ -192,12 +199,15 @@ int main(int count, char** words) {
       options.faulty = false;
     } else if (word == "--monitor-off") {
       options.monitored = false;
+    } else if (word == "--tasks") {
+      options.tasks = true;
     } else if (word == "--verbose") {
       options.verbose = true;
     } else {
-      std::fprintf(stderr,
-                   "usage: fault_campaign [--list] [--fault NAME] [--policy NAME] [--seeds N] "
-                   "[--first-seed N] [--hours H [--no-faults]] [--monitor-off] [--verbose]\n");
+      std::fprintf(
+          stderr,
+          "usage: fault_campaign [--list] [--fault NAME] [--policy NAME] [--seeds N] "
+          "[--first-seed N] [--hours H [--no-faults]] [--monitor-off] [--tasks] [--verbose]\n");
       return 2;
     }
   }

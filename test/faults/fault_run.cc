@@ -1,138 +1,24 @@
 #include "test/faults/fault_run.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
-#include "core/collision/state/clearance_query.h"
 #include "core/model/cell/build_cell.h"
+#include "test/faults/witness.h"
+#include "test/scenarios/random_tasks.h"
 
 namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kSample = 5ms;           // between audited states
-constexpr Duration kOperator = 100ms;       // between two looks of the operator
-constexpr Duration kReacts = 2s;            // of the operator
-constexpr Duration kWaits = 5s;             // for an arm in which the fault can begin
-constexpr Duration kRemovesAfter = 15s;     // a fault that stops no arm
-constexpr Duration kPatience = 3600s;        // after the last job
-constexpr std::size_t kStatesMax = 20'000;  // that are audited at once
-
-// Collects what an audit needs, and what the monitor does.
-class Witness final : public Observer {
- public:
-  Witness(CellPtr cell, bool verbose) : cell_(std::move(cell)), verbose_(verbose) {}
-
-  void on_event(const Event& event) override {
-    mix(event.seq);
-    mix(static_cast<std::uint64_t>(event.time.time_since_epoch().count()));
-    mix(event.body.index());
-    if (verbose_) print(event);
-    if (const auto* job = std::get_if<JobView>(&event.body)) {
-      if (is_terminal(job->state)) {
-        open.erase(job->key);
-      } else {
-        open.insert(job->key);
-      }
-    }
-    if (const auto* arm = std::get_if<ArmView>(&event.body)) jobs_[arm->name] = arm->job;
-    if (std::holds_alternative<GuardEvent>(event.body)) ++refusals;
-    if (const auto* found = std::get_if<MonitorEvent>(&event.body)) see(event.time, *found);
-  }
-  void on_tick(TimePoint, const Configuration&) override {}
-  void on_state(const StateFrame&) override {}
-
-  void on_truth(TimePoint now, const Configuration& q) override {
-    if (now < next_) return;
-    next_ = now + kSample;
-    for (const double position : q) mix(std::bit_cast<std::uint64_t>(position));
-    if (watch_ && now >= watch_->from) look(q);
-    if (!states_.empty() && states_.back().q == q) {
-      rests_until_ = now;
-      return;
-    }
-    if (rests_until_ && *rests_until_ > states_.back().time) {
-      states_.push_back({*rests_until_, states_.back().q, true});
-    }
-    rests_until_.reset();
-    states_.push_back({now, q});
-    if (states_.size() >= kStatesMax) audit_states();
-  }
-
-  void audit_states() {
-    if (states_.empty()) return;
-    const auto report = audit(*cell_, states_, kSample);
-    if (!report) throw std::runtime_error(report.error().front().detail);
-    if (!contact) contact = report->first_contact;
-    if (report->smallest_clearance) {
-      closest_m = std::min(closest_m, report->smallest_clearance->distance_m);
-    }
-    states_.erase(states_.begin(), std::prev(states_.end()));
-  }
-
-  // From now on, measures the distances of one arm.
-  struct Watched {
-    ArmId arm;
-    TimePoint from;
-    ClearanceQuery query;
-  };
-  void watch(Watched watched) { watch_.emplace(std::move(watched)); }
-
-  std::set<std::string> faulty;  // names
-  std::set<std::string> open;    // keys of jobs that have not ended
-  std::vector<FaultRunResult::MonitorStop> stops;
-  std::size_t stops_of_faulty = 0;
-  std::uint64_t refusals = 0, fingerprint = 14695981039346656037U;
-  std::optional<AuditFinding> contact;
-  double closest_m = 1e9;
-  double watched_m = 2.0;
-
- private:
-  void mix(std::uint64_t word) { fingerprint = (fingerprint ^ word) * 1099511628211U; }
-
-  static void print(const Event& event) {
-    std::string text;
-    if (const auto* alert = std::get_if<Alert>(&event.body)) text = alert->text;
-    if (const auto* job = std::get_if<JobView>(&event.body)) text = told(*job);
-    if (!text.empty()) std::fprintf(stderr, "%9.3f s  %s\n", to_seconds(event.time), text.c_str());
-  }
-
-  void see(TimePoint time, const MonitorEvent& event) {
-    const auto is_excused = [&](const std::string& arm) {
-      return std::ranges::any_of(faulty, [&](const std::string& other) {
-        return other == arm || (!jobs_[arm].empty() && jobs_[arm] == jobs_[other]);
-      });
-    };
-    for (const std::string& arm : event.stopped) {
-      if (is_excused(arm)) {
-        ++stops_of_faulty;
-      } else {
-        stops.push_back({time, *cell_->find_arm(arm), arm});
-      }
-    }
-  }
-
-  void look(const Configuration& q) {
-    for (const Proximity& pair : watch_->query.closest_apart(q, watched_m).apart) {
-      if (pair.arm_a == watch_->arm || pair.arm_b == watch_->arm) {
-        watched_m = std::min(watched_m, pair.clearance_m);
-      }
-    }
-  }
-
-  CellPtr cell_;
-  bool verbose_;
-  std::map<std::string, std::string> jobs_;  // by arm
-  std::vector<RecordedState> states_;
-  std::optional<TimePoint> rests_until_;
-  TimePoint next_{};
-  std::optional<Watched> watch_;
-};
+constexpr Duration kOperator = 100ms;    // between two looks of the operator
+constexpr Duration kReacts = 2s;         // of the operator
+constexpr Duration kWaits = 5s;          // for an arm in which the fault can begin
+constexpr Duration kRemovesAfter = 15s;  // a fault that stops no arm
+constexpr Duration kPatience = 3600s;    // after the last job
 
 // One run.
 class FaultRun {
@@ -144,6 +30,7 @@ class FaultRun {
       robot.controller.noise_rad = 0.1 * description.checking.tracking_error_rad;
       robot.controller.lag = from_seconds(random_.uniform(0.0, 0.05));
     }
+    if (plan.tasks) RandomTasks::add_signals(description);
     auto cell = build_cell(description);
     if (!cell) throw std::runtime_error(cell.error().front().detail);
     cell_ = *cell;
@@ -157,6 +44,11 @@ class FaultRun {
     jobs_ = std::make_unique<RandomJobs>(
         *cell_, random_, [this]() -> Executive& { return executive(); }, !plan.faulty);
     simulation_->tick();
+    if (plan.tasks) {
+      tasks_.emplace(*cell_, random_, *jobs_, [this]() -> Executive& { return executive(); });
+      witness_->watch(*tasks_, executive());
+      tasks_->place_parts();
+    }
     begins_at_ = at(from_seconds(random_.uniform(1.0, 0.5 * to_seconds(plan.jobs_for))));
   }
 
@@ -181,6 +73,7 @@ class FaultRun {
   FaultRunResult result() {
     witness_->audit_states();
     FaultRunResult result{.jobs = submitted_,
+                          .lost = {witness_->lost.begin(), witness_->lost.end()},
                           .contact = witness_->contact,
                           .may_touch = touches_may_occur(),
                           .closest_m = witness_->closest_m,
@@ -217,13 +110,17 @@ class FaultRun {
   [[nodiscard]] bool is_done() {
     if (now() < at(plan_.jobs_for)) return false;
     return now() >= at(plan_.jobs_for + kPatience) ||
-           (begins_at_ == TimePoint::max() && present_.empty() && executive().all_ended());
+           ((begins_at_ == TimePoint::max() || !plan_.faulty) && present_.empty() &&
+            executive().all_ended());
   }
 
   void submit() {
     next_job_ = now() + from_seconds(random_.uniform(0.1, 1.6));
     if (witness_->open.size() >= plan_.open_max) return;
-    JobRequest request = jobs_->any();
+    std::optional<JobRequest> task;
+    if (tasks_) tasks_->set_input();
+    if (tasks_ && random_.chance(0.6)) task = tasks_->any();
+    JobRequest request = task ? *std::move(task) : jobs_->any();
     const JobRequest copy = request;
     const auto accepted = executive().submit(std::move(request));
     if (!accepted) return;
@@ -302,6 +199,7 @@ class FaultRun {
   std::unique_ptr<Witness> witness_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<RandomJobs> jobs_;
+  std::optional<RandomTasks> tasks_;
   TimePoint next_job_{}, begins_at_{}, removes_at_ = TimePoint::max();
   std::optional<TimePoint> stopped_since_;
   std::vector<std::uint64_t> present_;  // faults

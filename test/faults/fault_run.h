@@ -23,6 +23,7 @@ struct FaultRunPlan {
   const ListedFault* fault = nullptr;
   bool faulty = true;     // false: no fault, but noise and lag within the promises
   bool monitored = true;  // false switches the monitor off
+  bool tasks = false;     // also jobs with steps, which pick and place parts
   bool verbose = false;   // prints jobs, alerts and faults to stderr
   Duration jobs_for = std::chrono::seconds(20);  // jobs are submitted for so long, ...
   std::size_t open_max = 1000;                   // ... while at most so many have not ended
@@ -32,6 +33,7 @@ struct FaultRunResult {
   std::size_t jobs = 0, succeeded = 0;
   std::size_t waiting = 0;              // jobs that have not ended, but state what they wait for
   std::vector<std::string> silent;      // jobs that have not ended and do not
+  std::vector<std::string> lost;        // parts that were not at exactly one place
   std::optional<AuditFinding> contact;  // of the true positions
   bool may_touch = false;               // ListedFault::may_touch of a fault present at the contact
   double closest_m = 1e9;               // of all pairs of arms, and arms with the scene

@@ -128,15 +128,52 @@ TEST(Planner, ReportsWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
 }
 
-// With one joint, comparing the many nodes with each other takes longer than evaluating states.
-TEST(Planner, CountsNodeComparisonsInItsBudget) {
+// An arm with one joint has one path only.
+TEST(Planner, NamesWhatBlocksTheOnlyPath) {
   rails::Rails rails;
   rails.question.rest[1] = 0.0;  // y, on x's rail
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
   PlanRequest request{.arm = rails::kX, .at = rails.question.rest, .goals = {at(-1.0)}};
   const PlanRefusal refusal = Planner(*PlanningScene::build(rails.cell)).plan(request).error();
   EXPECT_EQ(refusal.reason, Reason::not_found) << refusal.detail;
-  EXPECT_LT(refusal.evaluations, 200'000U);
+  EXPECT_LT(refusal.evaluations, 1000U);
+  ASSERT_TRUE(refusal.proximity);
+  EXPECT_EQ(refusal.proximity->arm_b, rails::kY);
+}
+
+// A controller may report an arm at its limit a little beyond it.
+TEST(Planner, BeginsInsideTheLimits) {
+  rails::Rails rails;
+  const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  const PlanningScenePtr scene = *PlanningScene::build(rails.cell);
+  PlanRequest request{.arm = rails::kX, .at = rails.question.rest, .goals = {at(1.0)}};
+  request.at[0] = 2.0 + rails.cell->execution.start_tolerance_rad - 1e-6;
+  const auto way = Planner(scene).plan(request);
+  ASSERT_TRUE(way) << way.error().detail;
+  EXPECT_EQ(way->points.front(), at(2.0));
+  request.at[0] += 1e-5;
+  EXPECT_EQ(Planner(scene).plan(request).error().reason, Reason::outside_limits);
+}
+
+// With few joints, comparing the many nodes with each other takes longer than evaluating states.
+TEST(Planner, CountsNodeComparisonsInItsBudget) {
+  rails::Rails rails;
+  Cell made = *rails.cell;
+  const ArmId turns = small::add_robot(made, "turns", small::at_xyz(0, 0, 0),
+                                       {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX()},
+                                       {0.0, rails::kRadius_m});
+  made.joints.back().kind = made.links.back().motion = JointKind::prismatic;
+  made.joints.back().lower = -2.0;
+  made.joints.back().upper = 2.0;
+  made.links[made.links.size() - 2].shapes.clear();
+  const CellPtr cell = small::shared(std::move(made));
+  Configuration rest = cell->home();
+  rest[0] = 1.9, rest[1] = 0.0;  // y, on the new arm's line
+  rest[static_cast<Eigen::Index>(cell->arm(turns).joints[1].index())] = 0.5;
+  PlanRequest request{.arm = turns, .at = rest, .goals = {Eigen::Vector2d(0.0, -1.0)}};
+  const PlanRefusal refusal = Planner(*PlanningScene::build(cell)).plan(request).error();
+  EXPECT_EQ(refusal.reason, Reason::not_found) << refusal.detail;
+  EXPECT_LT(refusal.evaluations, 350'000U);
 }
 
 TEST(Planner, ThrowsOnSizeMismatch) {

@@ -161,6 +161,10 @@ void RandomJobs::accepted(const std::string& key, const JobRequest& request) {
   ends.resize(arms_.size());
   for (std::size_t arm = 0; arm < arms_.size(); ++arm) {
     if (request.move_to && request.arm == arms_[arm].name) ends[arm] = *request.move_to->joints;
+    for (const StepRequest& step : request.steps) {
+      const auto* motion = std::get_if<MotionStepRequest>(&step.what);
+      if (motion && motion->arm == arms_[arm].name) ends[arm] = *motion->move_to->joints;
+    }
     const auto& names = request.trajectory.joint_names;
     const auto first = std::ranges::find(names, arms_[arm].joints.front());
     if (first == names.end()) continue;

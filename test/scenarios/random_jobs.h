@@ -38,9 +38,10 @@ class RandomJobs {
   // Returns the key of an active or recent job; empty if there is none.
   [[nodiscard]] std::string any_job();
   [[nodiscard]] const std::vector<Arm>& arms() const { return arms_; }
+  // Returns a random place for the arm's joints.
+  [[nodiscard]] std::vector<double> anywhere(const Arm& arm);
 
  private:
-  [[nodiscard]] std::vector<double> anywhere(const Arm& arm);
   [[nodiscard]] std::vector<double> predicted(std::size_t arm);
   [[nodiscard]] std::vector<std::size_t> some_arms(std::size_t most);
   [[nodiscard]] JobRequest motion(const std::vector<std::size_t>& arms);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/executive/executive.h"
+#include "core/model/cell_description.h"
+#include "test/scenarios/random_jobs.h"
+
+namespace armloom {
+
+// Random jobs with steps: each arm has a part, which it picks, carries, places and hands over. The
+// steps also wait, set outputs and wait for an input.
+class RandomTasks {
+ public:
+  // Adds the signals that the tasks use.
+  static void add_signals(CellDescription& cell);
+  // `random` and `jobs` outlive this object, and so does the cell's executive.
+  RandomTasks(const Cell& cell, Random& random, RandomJobs& jobs,
+              std::function<Executive&()> executive);
+
+  // Puts a part beside a random place of each arm's hand. Call after the first tick.
+  void place_parts();
+  // Returns nullopt if the chosen arm has no part to carry.
+  [[nodiscard]] std::optional<JobRequest> any();
+  // Call at intervals: sets the input to a random value.
+  void set_input();
+  // Call with each scene that is published. Returns the parts that are not at exactly one place.
+  [[nodiscard]] std::vector<std::string> see(const SceneView& scene);
+
+ private:
+  struct Grasp {
+    std::size_t arm;        // whose hand let go of the part
+    std::vector<double> q;  // joints of the arm then
+  };
+  using Steps = std::vector<StepRequest>;
+  [[nodiscard]] std::vector<double> joints_of(std::size_t arm, const Configuration& q) const;
+  [[nodiscard]] Eigen::Isometry3d hand_at(std::size_t arm, const std::vector<double>& q) const;
+  [[nodiscard]] StepRequest move(std::size_t arm, std::vector<double> q) const;
+  [[nodiscard]] StepRequest move_anywhere(std::size_t arm);
+  [[nodiscard]] StepRequest attach(const std::string& part, std::size_t arm) const;
+  void add_pause(Steps& steps);
+  void place(Steps& steps, const std::string& part, std::size_t arm);
+  void pick(Steps& steps, const std::string& part, std::size_t arm);
+  [[nodiscard]] bool hand_over(Steps& steps, const std::string& part, std::size_t from,
+                               std::size_t to);
+
+  const Cell& cell_;
+  Random& random_;
+  RandomJobs& jobs_;
+  std::function<Executive&()> executive_;
+  std::vector<std::string> hands_;  // names of links, by arm
+  std::set<std::string> parts_;
+  std::map<std::string, Grasp> grasps_;                // parts of the scene
+  std::map<std::string, std::size_t> held_;            // parts: arms that carry them
+  std::map<std::string, Eigen::Isometry3d> X_W_part_;  // parts of the scene
+  std::uint64_t next_ = 1;
+};
+
+}  // namespace armloom
