@@ -45,7 +45,7 @@ JobState state_of(const Task& task, const Scheduler& scheduler) {
   if (task.end) return task.end->state;
   const auto motion = task.next_motion();
   const TaskStep* present = task.present();
-  const bool acts = present == nullptr || !present->job;
+  const bool acts = present == nullptr || (!present->job && task.since);
   if (acts && task.began_at) return task.waits_on.empty() ? JobState::running : JobState::paused;
   const Step& step = *scheduler.find(*motion);
   const JobState state = step.pausing() ? JobState::paused : step.state();

@@ -103,7 +103,11 @@ JobView view_of(const Task& task, const Scheduler& scheduler, const Cell& cell,
   }
   if (task.at < task.steps.size()) view.step = task.at;
   const TaskStep* present = task.present();
-  if (present == nullptr || (!present->job && task.began_at)) view.waits_on.clear();
+  const bool acts = present != nullptr && !present->job && task.since;
+  if (present == nullptr || acts) view.waits_on.clear();
+  if (present != nullptr && !present->job) {  // until then, the task waits for what its motion does
+    std::erase_if(view.waits_on, [](const WaitView& w) { return w.kind == Wait::Kind::action; });
+  }
   for (const Wait& wait : task.waits_on) view.waits_on.push_back(view_of(wait, cell, names));
   view.result.reset();
   if (!task.end) return view;

@@ -12,13 +12,14 @@
 namespace armloom {
 namespace {
 
-std::string step_text(const Task& task) {
-  std::string text =
-      "step " + std::to_string(task.at + 1) + " of " + std::to_string(task.steps.size());
-  const TaskStep& step = task.steps[task.at];
+std::string step_text(const Task& task, std::size_t i) {
+  std::string text = "step " + std::to_string(i + 1) + " of " + std::to_string(task.steps.size());
+  const TaskStep& step = task.steps[i];
   if (!step.request.name.empty()) text += " (" + step.request.name + ")";
   return text + ": ";
 }
+
+std::string step_text(const Task& task) { return step_text(task, task.at); }
 
 std::string text_of(const Problems& problems) {
   const Problem& first = problems.front();
@@ -28,7 +29,9 @@ std::string text_of(const Problems& problems) {
 // The way in which a motion ended that did not succeed.
 TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePoint now) {
   std::string detail = view.detail();
-  if (!detail.empty()) detail = step_text(task) + detail;
+  const auto is_motion = [&](const TaskStep& step) { return step.job == motion.id.job; };
+  const auto i = std::ranges::find_if(task.steps, is_motion) - task.steps.begin();
+  if (!detail.empty()) detail = step_text(task, static_cast<std::size_t>(i)) + detail;
   return {motion.state(), motion.reason().value_or(Reason::step_failed), std::move(detail), now};
 }
 
@@ -109,6 +112,11 @@ bool Executive::Impl::go_on(Task& task) {
   TaskStep& present = task.steps[task.at];
   if (present.job) return go_on_with_motion(task, present);
   const auto next = task.next_motion();
+  if (next && scheduler_.find(*next)->has_ended()) {  // it cannot follow any more: a deadlock
+    const Step& motion = *scheduler_.find(*next);
+    end_task(task, end_of(task, motion, view_of(motion, *cell_, jobs_), clock_.now));
+    return true;
+  }
   if (next && !scheduler_.has_turn_for_actions(*next)) {
     tell_stop(task, *next);
     return false;
@@ -215,7 +223,10 @@ void Executive::Impl::motion_changed(Task& task, JobId motion) {
   const Step& step = *scheduler_.find(motion);
   if (step.times.started_at && !task.began_at) task.began_at = step.times.started_at;
   if (task.end) return;
-  if (step.has_ended() && motion == task.motions().back()) tasks_at_end_.insert(task.id);
+  const bool is_early = step.has_ended() && step.state() != JobState::succeeded;
+  if (is_early || (step.has_ended() && motion == task.motions().back())) {
+    tasks_at_end_.insert(task.id);
+  }
   if (step.has_ended()) return;  // go_on_with_tasks() sees it
   if (task.next_motion() == motion) tell_task(task.id);
 }

@@ -20,6 +20,13 @@ constexpr Duration kWaits = 5s;          // for an arm in which the fault can be
 constexpr Duration kRemovesAfter = 15s;  // a fault that stops no arm
 constexpr Duration kPatience = 3600s;    // after the last job
 
+std::string text_of_steps(const JobView& job) {
+  std::string text;
+  for (const StepView& step : job.steps) text += (text.empty() ? "; steps: " : ", ") + step.kind;
+  if (job.step) text += "; at step " + std::to_string(*job.step + 1);
+  return text;
+}
+
 // One run.
 class FaultRun {
  public:
@@ -86,7 +93,7 @@ class FaultRun {
       if (job.state == JobState::succeeded) ++result.succeeded;
       if (is_terminal(job.state)) continue;
       if (job.waits_on.empty() && !moves(job)) {
-        result.silent.push_back(told(job));
+        result.silent.push_back(told(job) + text_of_steps(job));
       } else {
         ++result.waiting;
       }

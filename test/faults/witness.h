@@ -130,12 +130,6 @@ class Witness final : public Observer {
   void see(TimePoint time, const SceneView& view) {
     if (tasks_ == nullptr) return;
     const PlanningScene& scene = *executive_->scene().scene();
-    if (verbose_) {
-      for (const auto& o : scene.objects()) std::fprintf(stderr, "DBG %.3f %s at %.4f %.4f %.4f\n", to_seconds(time.time_since_epoch()), o.name.c_str(), o.X_WO.translation().x(), o.X_WO.translation().y(), o.X_WO.translation().z());
-      for (const auto& o : scene.attachments()) std::fprintf(stderr, "DBG %.3f held %s by %s at %.4f %.4f %.4f\n", to_seconds(time.time_since_epoch()), o.object.name.c_str(), cell_->link(o.link).name.c_str(), o.X_LO.translation().x(), o.X_LO.translation().y(), o.X_LO.translation().z());
-      for (const auto& a : executive_->arms()) std::fprintf(stderr, "DBG   %s q %.4f\n", a.name.c_str(), a.q[0]);
-      for (const auto& t : scene.touch()) std::fprintf(stderr, "DBG   touch %s %zu\n", t.object.c_str(), t.links.size());
-    }
     scenes_.push_back({time, scene.objects(), scene.attachments(), scene.touch()});
     for (const std::string& part : tasks_->see(view)) lost.insert(part);
   }

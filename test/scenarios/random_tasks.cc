@@ -71,6 +71,7 @@ void RandomTasks::place_parts() {
       part.X_WO.linear().setIdentity();
       if (!executive_().scene().add(part)) continue;  // too close to an arm
       parts_.insert(part.name);
+      X_W_part_[part.name] = part.X_WO;
       grasps_[part.name] = {arm, q};
       break;
     }
