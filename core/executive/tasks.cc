@@ -192,9 +192,9 @@ void Executive::Impl::end_task(Task& task, TaskEnd end) {
   task.end = std::move(end);
   task.waits_on.clear();
   tasks_at_end_.erase(task.id);
-  if (const auto next = task.next_motion()) {
-    const Step* step = scheduler_.find(*next);
-    if (step != nullptr && !step->has_ended()) this->step(Cancel{*next});
+  for (const JobId motion : task.motions()) {
+    const Step* step = scheduler_.find(motion);
+    if (step != nullptr && !step->has_ended()) this->step(Cancel{motion});
   }
   set_touch(task, {});
   count_.end_of_a_job(clock_.now);

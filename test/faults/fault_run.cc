@@ -96,6 +96,9 @@ class FaultRun {
         result.silent.push_back(told(job) + text_of_steps(job));
       } else {
         ++result.waiting;
+        if (plan_.verbose) {
+          std::fprintf(stderr, "waiting: %s%s\n", told(job).c_str(), text_of_steps(job).c_str());
+        }
       }
     }
     return result;
