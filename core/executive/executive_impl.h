@@ -105,11 +105,12 @@ class Executive::Impl {
   void tell_stop(Task& task, JobId next);
   bool go_on_with_motion(Task& task, TaskStep& present);
   Result<bool> act(Task& task, const StepRequest& request);
-  bool has_arm_of(Task& task, LinkId link);
+  Result<bool> has_arm_of(Task& task, LinkId link);
   bool set_output(Task& task, const std::string& name, const SignalValue& value);
   Result<bool> changed_holding(Task& task, const std::string& object,
                                PlanningScene::Content content);
   void set_touch(Task& task, const TouchOf& next);
+  [[nodiscard]] std::vector<ArmId> arms_of(const Task& task) const;
   void clear_left_touch(const std::vector<ArmId>& arms);
   [[nodiscard]] bool is_clear(const std::string& object, const std::vector<ArmId>& arms) const;
   void show_touch(const std::string& object);

@@ -1,6 +1,7 @@
 // The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
 #include <algorithm>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/collision/check/line_checker.h"
@@ -13,7 +14,8 @@ namespace armloom {
 // Does the action. Returns false if it is not done yet.
 Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
   if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
-    if (!has_arm_of(task, *cell_->find_link(attach->link))) return false;
+    const auto has_arm = has_arm_of(task, *cell_->find_link(attach->link));
+    if (!has_arm || !*has_arm) return has_arm;
     auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object,
                             *cell_->find_link(attach->link), touch_of(*cell_, attach->touch));
     if (!content) return failure(std::move(content.error()));
@@ -21,7 +23,8 @@ Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
   }
   if (const auto* detach = std::get_if<DetachRequest>(&request.what)) {
     const auto carrier = carrier_of(*scene_.scene(), detach->object);
-    if (carrier && !has_arm_of(task, *carrier)) return false;
+    const auto has_arm = carrier ? has_arm_of(task, *carrier) : Result<bool>(true);
+    if (!has_arm || !*has_arm) return has_arm;
     auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object);
     if (!content) return failure(std::move(content.error()));
     return changed_holding(task, detach->object, std::move(*content));
@@ -57,17 +60,28 @@ Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
   return false;
 }
 
-// Returns true if no other job moves the arm of the link. Otherwise the task waits for that.
-bool Executive::Impl::has_arm_of(Task& task, LinkId link) {
+// Returns true if no other job moves the arm of the link. Otherwise the task waits for that, or
+// fails if it would wait for a job that may wait for this task.
+Result<bool> Executive::Impl::has_arm_of(Task& task, LinkId link) {
   const ArmId arm = *cell_->link(link).arm;
+  const std::string& name = cell_->arm(arm).name;
   const auto head = scheduler_.head(arm);
-  const bool is_own = head && tasks_.told(*head) == task.id;
-  if (is_own && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;
-  task.waits_on = {
-      {.kind = Wait::Kind::action,
-       .arm = arm,
-       .detail = cell_->arm(arm).name +
-                 (scheduler_.stopped(arm) ? " is stopped" : " has another job first")}};
+  const bool has_other = head && tasks_.told(*head) != task.id;
+  if (!has_other && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;
+  const auto moves = [&](const TaskStep& step) {
+    if (!step.job) return false;
+    const auto& arms = scheduler_.find(*step.job)->trajectory->arms();
+    return std::ranges::find(arms, arm) != arms.end();
+  };
+  const auto to_come = std::span(task.steps).subspan(task.at);
+  if (has_other && std::ranges::none_of(to_come, moves)) {
+    return failure(Problem{ProblemKind::conflict, "arm-in-use", "",
+                           "arm " + name + " has another job: add a motion of " + name +
+                               " after this step, so that the job keeps the arm until then"});
+  }
+  task.waits_on = {{.kind = Wait::Kind::action,
+                    .arm = arm,
+                    .detail = name + (has_other ? " has another job first" : " is stopped")}};
   return false;
 }
 
@@ -88,7 +102,9 @@ bool Executive::Impl::set_output(Task& task, const std::string& name, const Sign
 Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& object,
                                               PlanningScene::Content content) {
   if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
-  task.touch[object] = touch_in(*scene_.scene(), object);
+  TouchOf next = task.touch;
+  next[object] = touch_in(*scene_.scene(), object);
+  set_touch(task, next);
   StartLog* log = execution_.starts().log();
   if (log == nullptr) return true;
   task.awaits_record = true;
@@ -103,36 +119,42 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
 // Sets what the task allows to touch. What it no longer allows stays allowed until the hand has
 // left the object: otherwise the arm could not move away.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
+  const std::vector<ArmId> arms = arms_of(task);
+  std::set<std::string> changed;
+  for (const auto& [object, touch] : std::exchange(task.touch, next)) {
+    const auto same = next.find(object);
+    if (same != next.end() && same->second == touch) continue;
+    changed.insert(object);
+    TouchLeft& left = touch_left_[object];
+    left.arms.insert(left.arms.end(), arms.begin(), arms.end());
+    left.touch.add(touch);  // is_clear() ignores what is allowed anyway
+  }
+  for (const auto& [object, touch] : next) changed.insert(object);
+  clear_left_touch(arms);
+  for (const std::string& object : changed) show_touch(object);
+}
+
+// Returns the arms that the task moves.
+std::vector<ArmId> Executive::Impl::arms_of(const Task& task) const {
   std::vector<ArmId> arms;
   for (const JobId motion : task.motions()) {
     const auto& moved = scheduler_.find(motion)->trajectory->arms();
     arms.insert(arms.end(), moved.begin(), moved.end());
   }
-  std::set<std::string> changed;
-  for (const auto& [object, touch] : std::exchange(task.touch, next)) {
-    changed.insert(object);
-    TouchLeft& left = touch_left_[object];
-    left.arms = arms;
-    left.touch.add(touch);  // is_clear() ignores what is allowed anyway
-  }
-  for (const auto& [object, touch] : next) changed.insert(object);
-  for (const std::string& object : changed) show_touch(object);
-  clear_left_touch(arms);
+  return arms;
 }
 
 // Ends the allowances of ended steps of these arms, for objects that the arms have left.
 void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
-  for (auto left = touch_left_.begin(); left != touch_left_.end();) {
-    const auto& [object, of] = *left;
+  std::vector<std::string> cleared;
+  std::erase_if(touch_left_, [&](const auto& left) {
+    const auto& [object, of] = left;
     const bool is_of_these = std::ranges::find_first_of(of.arms, arms) != of.arms.end();
-    if (!is_of_these || !is_clear(object, of.arms)) {
-      ++left;
-      continue;
-    }
-    const std::string cleared = object;
-    left = touch_left_.erase(left);
-    show_touch(cleared);
-  }
+    if (!is_of_these || !is_clear(object, of.arms)) return false;
+    cleared.push_back(object);
+    return true;
+  });
+  for (const std::string& object : cleared) show_touch(object);  // may end other allowances
 }
 
 // Returns true if the arms can move from where they rest without the allowances of ended steps.
