@@ -79,6 +79,15 @@ Result<bool> Executive::Impl::has_arm_of(Task& task, LinkId link) {
                            "arm " + name + " has another job: add a motion of " + name +
                                " after this step, so that the job keeps the arm until then"});
   }
+  const auto& timeout = scheduler_.find(task.id)->job->terms.backlog_timeout;
+  if (has_other && timeout) {  // the scheduler does not know of this wait
+    if (clock_.now >= *task.since + *timeout) {
+      return failure(Problem{ProblemKind::conflict, "arm-in-use", "",
+                             "arm " + name + " had another job for " + seconds_text(*timeout) +
+                                 " (backlog_timeout_s)"});
+    }
+    wake_at(*task.since + *timeout);
+  }
   task.waits_on = {{.kind = Wait::Kind::action,
                     .arm = arm,
                     .detail = name + (has_other ? " has another job first" : " is stopped")}};

@@ -60,8 +60,8 @@ void renew_round(Transitions& state) {
       std::ranges::all_of(round.jobs, [&](JobId id) { return stands_in_vain(state, book.at(id)); });
   if (round.has_begun && !stuck) return;
   for (const Step& step : book.heads()) {
-    const bool goes =
-        step.is_waiting() && !step.is_unplanned() && !any_closed(state, step, blocks_place);
+    const bool is_planned = !step.is_unplanned() || step.stands_in() != nullptr;
+    const bool goes = step.is_waiting() && is_planned && !any_closed(state, step, blocks_place);
     if (goes) round.jobs.insert(step.id.job);
   }
   state.set_round(std::move(round));
