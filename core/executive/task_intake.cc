@@ -100,6 +100,10 @@ class StepCheck {
         add("held-twice", "/attach/object",
             attach.link + " holds " + attach.object + " already: detach it before", attach.object);
       }
+      if (held != holder_.end()) {  // it changes hands: both must stay until then
+        const auto giver = cell_.find_link(held->second);
+        if (giver) look_for_motion_of(*cell_.link(*giver).arm, "/attach/object", attach.object);
+      }
       holder_[attach.object] = attach.link;
       look_for_motion_of(*cell_.link(*link).arm, "/attach/link", attach.link);
     }

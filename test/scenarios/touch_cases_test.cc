@@ -1,0 +1,79 @@
+// Jobs with steps at an object: what may touch it, and which job has its arm.
+#include <gmock/gmock.h>
+
+#include "test/scenarios/task_cell.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+// The hand is still at the part when its job ends: a later job must be able to move away.
+TEST(Task, LeavesThePartInALaterJob) {
+  Tasks cell;
+  cell.submit(task("place", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", 0.5), detach(),
+                             slide_to("x", 0.495)}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("place").state, JobState::succeeded) << cell.job("place").detail();
+  EXPECT_EQ(cell.scene().scene()->touch().size(), 1U) << "the hand is still at the part";
+  cell.submit(move_to("x", -1.0, "away"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("away").state, JobState::succeeded) << cell.job("away").detail();
+  EXPECT_TRUE(cell.scene().scene()->touch().empty());
+}
+
+TEST(Task, PutsDownWhatAnotherHandIsStillAt) {
+  Tasks cell;
+  cell.submit(task("hand over", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", -0.26),
+                                 slide_to("y", 0.0), attach("y_ball"), slide_to("y", 0.005),
+                                 detach(), slide_to("y", -1.0), slide_to("x", -1.0)}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("hand over").state, JobState::succeeded) << cell.job("hand over").detail();
+  EXPECT_TRUE(cell.scene().scene()->touch().empty());
+}
+
+TEST(Task, KeepsTheArmThatGivesAnObject) {
+  Tasks cell;
+  JobRequest request =
+      task("hand over", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", -0.26),
+                         slide_to("y", 0.0), attach("y_ball"), slide_to("y", -1.0)});
+  const auto refused = cell.executive().submit(std::move(request));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().pointer, "/steps/4/attach/object");
+  EXPECT_THAT(refused.error().front().detail, HasSubstr("moves x"));
+}
+
+// y's motion waits for x, which the job itself moves only afterwards.
+TEST(Task, EndsIfItsMotionsWaitForEachOther) {
+  Tasks cell;
+  ASSERT_TRUE(cell.scene().remove("part"));
+  JobRequest request = task("crossed", {slide_to("x", 0.0), set("valve", true), slide_to("y", 1.0),
+                                        set("valve", false), slide_to("x", 1.0)});
+  request.terms.backlog_timeout = 5s;
+  cell.submit(request);
+  while (!cell.executive().all_ended() && cell.simulation->now() < at(60s)) cell.simulation->tick();
+  const JobView job = cell.job("crossed");
+  EXPECT_TRUE(is_terminal(job.state)) << job.detail();
+  EXPECT_NE(job.state, JobState::succeeded);
+  EXPECT_THAT(job.detail(), HasSubstr("of 5"));
+}
+
+// The first job should have given the part to y, and failed.
+TEST(Task, DoesNotWaitForTheJobOfAnArmThatItDoesNotMove) {
+  for (const bool is_busy : {true, false}) {
+    Tasks cell;
+    cell.submit(task("hand over", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", -0.5),
+                                   attach("y_ball"), slide_to("x", -1.0), slide_to("y", -1.0)}));
+    cell.submit(task("put down", {slide_to("y", -0.9), detach(), slide_to("y", -1.0)}));
+    while (!is_terminal(cell.job("hand over").state)) cell.simulation->tick();
+    ASSERT_EQ(cell.job("hand over").state, JobState::failed);
+    if (is_busy) cell.submit(slide("x", -0.5, -0.9, 5.0, "busy"));
+    cell.run_to_the_end();
+    const JobView job = cell.job("put down");
+    EXPECT_EQ(job.state, is_busy ? JobState::failed : JobState::succeeded) << job.detail();
+    EXPECT_EQ(job.detail().find("add a motion of x") != std::string::npos, is_busy);
+  }
+}
+
+}  // namespace
+}  // namespace armloom
