@@ -55,6 +55,10 @@ class Executive::Impl {
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
 
+  // task_asking.cc
+  void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<StepsPlan>)> done);
+
   // executive_impl.cc
   void note(ExecutiveInput input) const;
   void step(const Input& input);
@@ -129,7 +133,20 @@ class Executive::Impl {
   void enter(Submit submitted, JobLabel label);
   struct OpenInquiry;
   void plan_next(const std::shared_ptr<OpenInquiry>& inquiry);
-  void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
+  using TrialEnd = Result<Trial::Outcome>;
+  // Answers the questions of the trial in this scene.
+  void walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
+            std::function<void(TrialEnd)> done);
+  [[nodiscard]] Trial::Open open_now();
+  [[nodiscard]] std::vector<ArmId> may_move(const std::vector<ArmId>& staying) const;
+
+  // task_asking.cc
+  struct OpenStepsPlan;
+  void plan_next(const std::shared_ptr<OpenStepsPlan>& open);
+  struct OpenStepsCheck;
+  void check_steps(PreparedJob job, Configuration at, std::function<void(Result<CheckView>)> done);
+  void check_next(const std::shared_ptr<OpenStepsCheck>& open);
+  [[nodiscard]] Trial trial_of(const OpenStepsCheck& open);
 
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void carry_out(const Effect& effect);
@@ -167,5 +184,8 @@ class Executive::Impl {
   // Objects that the hands of ended tasks may still touch, with their arms.
   std::map<std::string, std::vector<ArmId>> touch_left_;
 };
+
+// Returns the problem that too many questions of clients ("checks", "plans") are open.
+[[nodiscard]] Problem too_many_open(const std::string& what);
 
 }  // namespace armloom

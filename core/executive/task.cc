@@ -106,6 +106,18 @@ std::optional<std::string> TaskBook::will_attach(const std::string& object) cons
   return link;
 }
 
+TouchOf changed_touch(const TouchOf& before, const TouchOf& next) {
+  TouchOf changed;
+  for (const auto& [object, touch] : before) {
+    if (!next.contains(object)) changed[object] = {};
+  }
+  for (const auto& [object, touch] : next) {
+    const auto same = before.find(object);
+    if (same == before.end() || same->second != touch) changed[object] = touch;
+  }
+  return changed;
+}
+
 Touch touch_of(const Cell& cell, const std::vector<std::string>& names) {
   Touch touch;
   for (const std::string& name : names) {

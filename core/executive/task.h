@@ -85,6 +85,9 @@ class TaskBook {
   std::map<JobId, JobId> id_of_motion_;  // Task::id, by motion
 };
 
+// Returns the objects that may touch something else in `next` than in `before`, with what they may
+// touch then.
+[[nodiscard]] TouchOf changed_touch(const TouchOf& before, const TouchOf& next);
 // Links and objects by their names. A name that is no link is an object.
 [[nodiscard]] Touch touch_of(const Cell& cell, const std::vector<std::string>& names);
 // Returns what objects may touch during each step, by index; empty for actions. The hand may touch

@@ -99,14 +99,9 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
 
 // An allowance stays between two motions, because the hand stays at the object.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
-  const TouchOf before = std::exchange(task.touch, next);
-  for (const auto& [object, touch] : before) {
-    if (!next.contains(object)) change_touch(object, {});
-  }
-  for (const auto& [object, touch] : next) {
-    const auto same = before.find(object);
-    if (same == before.end() || same->second != touch) change_touch(object, touch);
-  }
+  const TouchOf changed = changed_touch(task.touch, next);
+  task.touch = next;
+  for (const auto& [object, touch] : changed) change_touch(object, touch);
 }
 
 // The task has failed or was canceled: its hand may be at the object. The allowance ends with the

@@ -241,6 +241,10 @@ PartPtr<JobRequest> wrapper_parts() {
   });
 }
 
+FormatPtr<std::vector<StepRequest>> steps_format() {
+  return list(step_request_format(), {.fewest = 1, .most = kStepsMax, .noun = "steps"});
+}
+
 FormatPtr<JobRequest> plain_job_format() {
   using Request = JobRequest;
   return named(
@@ -257,8 +261,7 @@ FormatPtr<JobRequest> plain_job_format() {
                                        unless("args", required("trajectory", &Request::trajectory,
                                                                trajectory_request_format(),
                                                                "Motion of the job"))))))),
-          field("steps", &Request::steps,
-                list(step_request_format(), {.fewest = 1, .most = kStepsMax, .noun = "steps"}),
+          field("steps", &Request::steps, steps_format(),
                 "Instead of `trajectory`: steps that are executed in this order. Other jobs of the "
                 "same arms wait until the last motion has ended"),
           field("goal", &Request::trajectory, action_goal_format(),
@@ -324,6 +327,15 @@ class JobOrMessage final : public CustomFormat<JobRequest> {
 };
 
 }  // namespace
+
+PartPtr<JobRequest> steps_job_parts() {
+  return parts<JobRequest>({
+      label_parts(),
+      required("steps", &JobRequest::steps, steps_format(),
+               "Steps that are executed in this order"),
+      parts_after_trajectory(),
+  });
+}
 
 FormatPtr<std::string> job_id_format() {
   static const auto format =
