@@ -1,89 +1,17 @@
 // Jobs with steps: motions, and actions between them.
 #include <gmock/gmock.h>
 
-#include <cmath>
+#include <atomic>
 #include <map>
+#include <memory>
 
-#include "core/collision/state/clearance_query.h"
-#include "core/executive/live_scene.h"
-#include "test/scenarios/crossing.h"
+#include "test/scenarios/tasks.h"
 
 namespace armloom {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr double kPart_m = 0.03;  // radius
-
-CellDescription with_io() {
-  CellDescription cell = crossing_description();
-  cell.io.signals = {
-      {.name = "valve", .direction = SignalDirection::output},
-      {.name = "ready", .direction = SignalDirection::input},
-      {.name = "counter", .direction = SignalDirection::output, .type = SignalType::integer},
-  };
-  return cell;
-}
-
-CollisionObject part_at(double x) {
-  CollisionObject part{.name = "part", .shape = Sphere{kPart_m}};
-  part.X_WO.translation() = Eigen::Vector3d(x, 0.0, 0.0);
-  return part;
-}
-
-StepRequest slide_to(const std::string& arm, double to_m) {
-  MotionStepRequest motion{.trajectory = {}, .arm = arm};
-  motion.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
-  return {"", motion};
-}
-StepRequest attach(const std::string& link, std::vector<std::string> touch = {}) {
-  return {"", AttachRequest{"part", link, std::move(touch)}};
-}
-StepRequest detach() { return {"", DetachRequest{"part"}}; }
-StepRequest set(const std::string& signal, SignalValue value) {
-  return {"", SetIoRequest{signal, value}};
-}
-
-JobRequest task(std::string key, std::vector<StepRequest> steps) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.steps = std::move(steps);
-  return request;
-}
-
-// Asserts in every event that the part is at exactly one place.
-struct Tasks : Crossing {
-  explicit Tasks(CellDescription cell = with_io()) : Crossing(cell, "earliest_start") {
-    (void)scene().add(part_at(0.13));
-  }
-  Executive& executive() { return simulation->executive(); }
-  LiveScene& scene() { return executive().scene(); }
-  void run_to_the_end(TimePoint limit = at(60s)) {
-    while (!executive().all_ended() && simulation->now() < limit) {
-      simulation->tick();
-      EXPECT_EQ(places(), 1) << to_seconds(simulation->now().time_since_epoch());
-    }
-    EXPECT_TRUE(executive().all_ended());
-  }
-  [[nodiscard]] int places() {
-    const auto is_part = [](const auto& object) { return object.name == "part"; };
-    const auto is_held = [](const Attachment& held) { return held.object.name == "part"; };
-    return static_cast<int>(std::ranges::count_if(scene().objects(), is_part) +
-                            std::ranges::count_if(scene().scene()->attachments(), is_held));
-  }
-  [[nodiscard]] double x_of_part() {
-    for (const CollisionObject& object : scene().objects()) {
-      if (object.name == "part") return object.X_WO.translation().x();
-    }
-    return std::nan("");
-  }
-  [[nodiscard]] std::optional<SignalValue> signal(const std::string& name) {
-    for (const SignalView& view : executive().signals().views()) {
-      if (view.name == name) return view.value;
-    }
-    return std::nullopt;
-  }
-};
 
 TEST(Task, PicksAndPlaces) {
   Tasks cell;
@@ -289,6 +217,21 @@ TEST(Task, RefusesWhatCannotBeDone) {
     EXPECT_EQ(answer.error().front().slug, one.slug);
     EXPECT_EQ(answer.error().front().pointer, one.pointer) << one.slug;
     EXPECT_TRUE(cell.executive().all_ended());
+    std::vector<Problems> others;  // of questions about the same job
+    const auto keep = [&](const auto& result) {
+      ASSERT_FALSE(result) << one.slug;
+      others.push_back(result.error());
+    };
+    cell.executive().check(task("bad", one.steps), keep);
+    cell.executive().plan(StepsInquiry{task("bad", one.steps)},
+                          std::make_shared<std::atomic<bool>>(false), keep);
+    ASSERT_EQ(others.size(), 2U);
+    for (const Problems& problems : others) {
+      ASSERT_EQ(problems.size(), answer.error().size());
+      EXPECT_EQ(problems.front().slug, one.slug);
+      EXPECT_EQ(problems.front().pointer, one.pointer);
+      EXPECT_EQ(problems.front().detail, answer.error().front().detail);
+    }
   }
 }
 
