@@ -15,6 +15,17 @@ namespace armloom {
 
 // ---- Plans ----
 
+namespace {
+
+// Returns the JSON pointer of a trajectory in its step.
+std::string place_of_motion(const StepRequest& step) {
+  const auto* motion = std::get_if<MotionStepRequest>(&step.what);
+  if (motion == nullptr) return "";
+  return motion->trajectory.place.value_or("/trajectory");
+}
+
+}  // namespace
+
 struct Executive::Impl::OpenStepsPlan {
   StepsInquiry inquiry;
   TaskPreview preview;
@@ -56,10 +67,7 @@ void Executive::Impl::OpenStepsPlan::refuse(PlanRefusal why) {
   const auto& motion = std::get<MotionStepRequest>(request().what);
   RefusedInquiry refused{std::move(why), place};
   const bool is_of_start = refused.why.is_of_start();
-  if (is_of_start && !motion.arm.empty()) {
-    refused.pointer = place + "/arm";
-    refused.value = motion.arm;
-  }
+  if (is_of_start) refused.value = motion.arm;
   const bool is_of_goal = !is_of_start && refused.why.reason != PlanRefusal::Reason::not_found &&
                           refused.why.reason != PlanRefusal::Reason::cancelled;
   if (is_of_goal) point_at_goal(place + "/move_to", *motion.move_to, refused);
@@ -90,7 +98,8 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
     const TrajectoryPtr& given = motion.alternatives.front();
     Problems elsewhere, problems;
     find_start_elsewhere(*cell_, *given, open->preview.at(), elsewhere);
-    add_below(place_of_step(open->preview.index()) + "/trajectory", std::move(elsewhere), problems);
+    add_below(place_of_step(open->preview.index()) + place_of_motion(open->request()),
+              std::move(elsewhere), problems);
     if (!problems.empty()) return open->refuse(std::move(problems));
     open->add_motion(*cell_, given, 0);
   }

@@ -295,7 +295,7 @@ PreparedMotion JobIntake::read_step(const StepRequest& asked, const JobRequest& 
   JobRequest alone;
   alone.trajectory = motion.trajectory;
   alone.move_to = motion.move_to;
-  alone.arm = motion.arm.empty() && motion.move_to ? request.arm : motion.arm;
+  alone.arm = motion.arm;
   alone.speed = motion.speed ? motion.speed : request.speed;
   if (is_first) alone.terms.move_to_start = request.terms.move_to_start;
   if (motion.move_to) alone.terms.move_to_start = MoveToStart::none;
