@@ -82,9 +82,9 @@ void Executive::Impl::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<boo
   auto prepared = intake_.prepare(inquiry.job, ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
   std::vector<ArmId> arms = prepared->arms_of_steps();
-  plan_next(std::make_shared<OpenStepsPlan>(
-      OpenStepsPlan{std::move(inquiry), TaskPreview(std::move(prepared->steps), scene_.scene(), at),
-                    std::move(arms), std::move(cancelled), std::move(done)}));
+  plan_next(std::make_shared<OpenStepsPlan>(OpenStepsPlan{
+      std::move(inquiry), TaskPreview(std::move(prepared->steps), scene_.scene(), at, touch_left_),
+      std::move(arms), std::move(cancelled), std::move(done)}));
 }
 
 void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
@@ -132,7 +132,7 @@ struct Executive::Impl::OpenStepsCheck {
 
 void Executive::Impl::check_steps(PreparedJob job, Configuration at,
                                   std::function<void(Result<CheckView>)> done) {
-  TaskPreview preview(job.steps, scene_.scene(), std::move(at));
+  TaskPreview preview(job.steps, scene_.scene(), std::move(at), touch_left_);
   std::vector<ArmId> arms = job.arms_of_steps();
   CheckView view{.scene_version = scene_.version()};
   check_next(std::make_shared<OpenStepsCheck>(OpenStepsCheck{

@@ -1,5 +1,6 @@
 #include "core/executive/task_preview.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -35,8 +36,11 @@ PlanningScenePtr with_touch(PlanningScenePtr scene, const TouchOf& before, const
 }
 
 TaskPreview::TaskPreview(std::vector<PreparedJob::PreparedStep> steps, PlanningScenePtr scene,
-                         Configuration at)
-    : steps_(std::move(steps)), scene_(std::move(scene)), at_(std::move(at)) {}
+                         Configuration at, std::map<std::string, std::vector<ArmId>> left)
+    : steps_(std::move(steps)),
+      scene_(std::move(scene)),
+      at_(std::move(at)),
+      left_(std::move(left)) {}
 
 Result<bool> TaskPreview::go_on() {
   for (; index_ < steps_.size(); ++index_) {
@@ -71,6 +75,12 @@ Result<void> TaskPreview::begin_motion() {
 
 void TaskPreview::end_motion(const Trajectory& motion) {
   set_joints(at_, motion, motion.goal());
+  std::erase_if(left_, [&](const auto& left) {
+    const auto& [object, arms] = left;
+    if (std::ranges::find_first_of(arms, motion.arms()) == arms.end()) return false;
+    scene_ = with_touch(std::move(scene_), {{object, {}}}, {});
+    return true;
+  });
   ++index_;
 }
 

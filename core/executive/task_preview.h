@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "core/base/problem.h"
@@ -25,9 +27,10 @@ namespace armloom {
 //   while (go_on() returns true) { find the motion of index() in scene() from at(); end_motion(); }
 class TaskPreview {
  public:
-  // `at`: positions of all joints before the first step (rad, m).
+  // `at`: positions of all joints before the first step (rad, m). `left`: objects that hands may
+  // still touch, each until one of these arms has moved.
   TaskPreview(std::vector<PreparedJob::PreparedStep> steps, PlanningScenePtr scene,
-              Configuration at);
+              Configuration at, std::map<std::string, std::vector<ArmId>> left = {});
 
   // Does the actions before the next motion. Returns false if there is no further motion. Problems,
   // with pointers "/steps/2/attach/object": those of after_action() and of gripper_motion();
@@ -54,6 +57,7 @@ class TaskPreview {
   PlanningScenePtr scene_;
   Configuration at_;
   TouchOf touch_ = {};
+  std::map<std::string, std::vector<ArmId>> left_;
 };
 
 }  // namespace armloom
