@@ -52,6 +52,18 @@ inline JobRequest task(std::string key, std::vector<StepRequest> steps) {
   return request;
 }
 
+// From home; the part is at 0.13.
+inline std::vector<StepRequest> pick_and_place() {
+  return {slide_to("x", 0.0), attach("x_ball"), slide_to("x", 0.5), detach(), slide_to("x", -1.0)};
+}
+// The part is at -0.47. When x ends at -0.25, ball x is 5 cm from ball y at the origin, and the
+// part would be in ball y.
+inline std::vector<StepRequest> into_y(bool holds) {
+  std::vector<StepRequest> steps{slide_to("x", -0.6), slide_to("x", -0.25)};
+  if (holds) steps.insert(steps.begin() + 1, attach("x_ball"));
+  return steps;
+}
+
 // Asserts in every event that the part is at exactly one place.
 struct Tasks : Crossing {
   explicit Tasks(CellDescription cell = with_io(), const std::string& policy = "earliest_start")
