@@ -59,6 +59,12 @@ class JudgementService {
   virtual void plan(PlanTask task) = 0;
   // Plans for a client's inquiry. Returns false like consider().
   [[nodiscard]] virtual bool draft(PlanTask task) = 0;
+  // Runs `work` for a client's question, on any thread. Returns false like consider().
+  [[nodiscard]] virtual bool compute(std::function<void()> work, std::function<void()> done) {
+    work();
+    done();
+    return true;
+  }
 };
 
 struct Policy;

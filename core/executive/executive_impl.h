@@ -27,6 +27,8 @@
 
 namespace armloom {
 
+class TaskPreview;
+
 // The modules of the executive and their connections.
 class Executive::Impl {
  public:
@@ -143,6 +145,9 @@ class Executive::Impl {
   // task_asking.cc
   struct OpenStepsPlan;
   void plan_next(const std::shared_ptr<OpenStepsPlan>& open);
+  void plan_motion(const std::shared_ptr<OpenStepsPlan>& open);
+  [[nodiscard]] bool go_on(TaskPreview& preview, std::shared_ptr<void> owner,
+                           std::function<void(Result<bool>)> arrived);
   struct OpenStepsCheck;
   void check_steps(PreparedJob job, Configuration at, std::function<void(Result<CheckView>)> done);
   void check_next(const std::shared_ptr<OpenStepsCheck>& open);

@@ -88,23 +88,30 @@ void Executive::Impl::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<boo
 }
 
 void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
-  for (;;) {
-    auto is_motion = open->preview.go_on();
+  const auto arrived = [this, open](Result<bool> is_motion) {
     open->add_actions();
     if (!is_motion) return open->refuse(std::move(is_motion.error()));
     if (!*is_motion) return open->end();
-    const PreparedMotion& motion = open->preview.motion();
-    if (!motion.goals.empty()) break;
-    const TrajectoryPtr& given = motion.alternatives.front();
+    plan_motion(open);
+  };
+  if (!go_on(open->preview, open, arrived)) open->done(failure(too_many_open("plans")));
+}
+
+// Plans the present motion.
+void Executive::Impl::plan_motion(const std::shared_ptr<OpenStepsPlan>& open) {
+  const TaskPreview& preview = open->preview;
+  const PreparedMotion& motion = preview.motion();
+  if (motion.goals.empty()) {
+    const TrajectoryPtr given = motion.alternatives.front();
     Problems elsewhere, problems;
-    find_start_elsewhere(*cell_, *given, open->preview.at(), elsewhere);
-    add_below(place_of_step(open->preview.index()) + place_of_motion(open->request()),
+    find_start_elsewhere(*cell_, *given, preview.at(), elsewhere);
+    add_below(place_of_step(preview.index()) + place_of_motion(open->request()),
               std::move(elsewhere), problems);
     if (!problems.empty()) return open->refuse(std::move(problems));
     open->add_motion(*cell_, given, 0);
+    return plan_next(open);
   }
-  const TaskPreview& preview = open->preview;
-  PlanQuestion question{.goal = preview.motion().goals.front(),
+  PlanQuestion question{.goal = motion.goals.front(),
                         .at = preview.at(),
                         .may_move = may_move(open->arms),
                         .seed = open->inquiry.seed,
@@ -117,6 +124,17 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
   PlanTask task{std::move(question), preview.scene(), open->cancelled, answered};
   if (questions_.service().draft(std::move(task))) return;
   open->done(failure(too_many_open("plans")));
+}
+
+// Goes on to the next motion of the preview, which `owner` owns. Makes the scenes on a worker: each
+// costs up to some milliseconds. `arrived` is called on the strand. Returns false if too many
+// questions are open.
+bool Executive::Impl::go_on(TaskPreview& preview, std::shared_ptr<void> owner,
+                            std::function<void(Result<bool>)> arrived) {
+  const auto found = std::make_shared<Result<bool>>(false);
+  return questions_.service().compute(
+      [&preview, owner, found] { *found = preview.go_on(); },
+      [owner, found, arrived = std::move(arrived)] { arrived(std::move(*found)); });
 }
 
 // ---- Checks ----
@@ -140,22 +158,22 @@ void Executive::Impl::check_steps(PreparedJob job, Configuration at,
 }
 
 void Executive::Impl::check_next(const std::shared_ptr<OpenStepsCheck>& open) {
-  TaskPreview& preview = open->preview;
-  const auto is_motion = preview.go_on();
-  if (!is_motion) {
-    add_step(open->view, failed_step(is_motion.error()), preview.index(), open->is_first);
-    return open->done(std::move(open->view));
-  }
-  if (!*is_motion) return open->done(std::move(open->view));
-  const auto judged = [this, open](TrialEnd end) {
-    if (!end) return open->done(failure(std::move(end.error())));
-    add_step(open->view, view_of(*end, *cell_, jobs_), open->preview.index(), open->is_first);
-    if (open->view.kind != Verdict::Kind::free) return open->done(std::move(open->view));
-    open->is_first = false;
-    open->preview.end_motion(*end->step->trajectory);
-    check_next(open);
+  const auto arrived = [this, open](const Result<bool>& is_motion) {
+    if (!is_motion) {
+      add_step(open->view, failed_step(is_motion.error()), open->preview.index(), open->is_first);
+    }
+    if (!is_motion || !*is_motion) return open->done(std::move(open->view));
+    const auto judged = [this, open](TrialEnd end) {
+      if (!end) return open->done(failure(std::move(end.error())));
+      add_step(open->view, view_of(*end, *cell_, jobs_), open->preview.index(), open->is_first);
+      if (open->view.kind != Verdict::Kind::free) return open->done(std::move(open->view));
+      open->is_first = false;
+      open->preview.end_motion(*end->step->trajectory);
+      check_next(open);
+    };
+    walk(std::make_shared<Trial>(trial_of(*open)), open->preview.scene(), judged);
   };
-  walk(std::make_shared<Trial>(trial_of(*open)), preview.scene(), judged);
+  if (!go_on(open->preview, open, arrived)) open->done(failure(too_many_open("checks")));
 }
 
 // The first motion is submitted as the job would be. A further motion is submitted when the arms of
