@@ -13,11 +13,6 @@
 namespace armloom {
 namespace {
 
-Problem too_many(const std::string& what) {
-  return {ProblemKind::unavailable, "too-many-" + what, "",
-          "too many " + what + " are open; retry in a moment"};
-}
-
 // For each arm that may go; where that begins stands in `at`.
 Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInquiry& inquiry,
                                                const Configuration& at) {
@@ -56,8 +51,10 @@ std::string why_another(const std::optional<double>& arrives, const PlanView& be
 
 using RefusedArms = std::vector<std::pair<std::string, PlanRefusal>>;
 
+}  // namespace
+
 // Joints or a state as they were said; else the whole pose.
-void point_at(const std::string& place, const PlanGoal& said, RefusedInquiry& refused) {
+void point_at_goal(const std::string& place, const PlanGoal& said, RefusedInquiry& refused) {
   if (said.named) {
     refused.pointer = place + "/named";
     refused.value = *said.named;
@@ -69,6 +66,8 @@ void point_at(const std::string& place, const PlanGoal& said, RefusedInquiry& re
   }
 }
 
+namespace {
+
 // What of the inquiry is at fault. Where the arm stands is nothing that it says.
 RefusedInquiry placed(const PlanInquiry& inquiry, const std::string& arm, PlanRefusal why) {
   using Reason = PlanRefusal::Reason;
@@ -77,9 +76,9 @@ RefusedInquiry placed(const PlanInquiry& inquiry, const std::string& arm, PlanRe
     return refused;
   }
   if (!refused.why.is_of_start()) {
-    point_at("/to", inquiry.to, refused);
+    point_at_goal("/to", inquiry.to, refused);
   } else if (inquiry.from) {
-    point_at("/start", *inquiry.from, refused);
+    point_at_goal("/start", *inquiry.from, refused);
   } else {
     const auto which = std::ranges::find(inquiry.arms, arm) - inquiry.arms.begin();
     refused.pointer = inquiry.arms.empty() ? "/arm" : "/arms/" + std::to_string(which);
@@ -123,41 +122,62 @@ PlanOutcome first_of(const PlanInquiry& inquiry, std::vector<PlanView> plans,
 
 }  // namespace
 
-void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
-  if (auto problem = find_unchecked_steps(request)) return done(failure(*std::move(problem)));
-  JobIntake::Ahead ahead = intake_.ahead();
-  auto prepared = intake_.prepare(std::move(request), ahead);
-  if (!prepared) return done(failure(std::move(prepared.error())));
-  Submit job = intake_.submission(std::move(*prepared));
-  job.job = scheduler_.next_job();
-  const Trial::Open open{questions_.asked(), questions_.plans().open()};
-  walk(std::make_shared<Trial>(scheduler_, open, std::vector{job}, job.job, clock_.now),
-       std::move(done));
+Problem too_many_open(const std::string& what) {
+  return {ProblemKind::unavailable, "too-many-" + what, "",
+          "too many " + what + " are open; retry in a moment"};
 }
 
+void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+  JobIntake::Ahead ahead = intake_.ahead();
+  Configuration at = ahead.rest;
+  auto prepared = intake_.prepare(std::move(request), ahead);
+  if (!prepared) return done(failure(std::move(prepared.error())));
+  if (!prepared->steps.empty()) {
+    return check_steps(*std::move(prepared), std::move(at), std::move(done));
+  }
+  Submit job = intake_.submission(std::move(*prepared));
+  job.job = scheduler_.next_job();
+  const auto judged = [this, version = scene_.version(), done = std::move(done)](TrialEnd end) {
+    if (!end) return done(failure(std::move(end.error())));
+    CheckView view = view_of(*end, *cell_, jobs_);
+    view.scene_version = version;
+    done(std::move(view));
+  };
+  walk(std::make_shared<Trial>(scheduler_, open_now(), std::vector{job}, job.job, clock_.now),
+       scene_.scene(), judged);
+}
+
+Trial::Open Executive::Impl::open_now() { return {questions_.asked(), questions_.plans().open()}; }
+
 // As admission would, in this instant.
-void Executive::Impl::walk(std::shared_ptr<Trial> trial,
-                           std::function<void(Result<CheckView>)> done) {
+void Executive::Impl::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
+                           std::function<void(TrialEnd)> done) {
   if (auto question = trial->next()) {
-    const auto answered = [this, trial, done](Verdict verdict) {
+    const auto answered = [this, trial, scene, done](Verdict verdict) {
       trial->answer(std::move(verdict));
-      walk(trial, done);
+      walk(trial, scene, done);
     };
-    if (questions_.service().consider(std::move(*question), scene_.scene(), answered)) return;
-    return done(failure(too_many("checks")));
+    if (questions_.service().consider(std::move(*question), scene, answered)) return;
+    return done(failure(too_many_open("checks")));
   }
   if (const auto plan = trial->next_plan()) {
-    const auto answered = [this, trial, plan, done](PlanAnswer answer) {
+    const auto answered = [this, trial, scene, plan, done](PlanAnswer answer) {
       trial->answer(made_of(*plan, std::move(answer)));
-      walk(trial, done);
+      walk(trial, scene, done);
     };
     const auto cancelled = std::make_shared<std::atomic<bool>>(false);
-    if (questions_.service().draft({plan->question, scene_.scene(), cancelled, answered})) return;
-    return done(failure(too_many("plans")));
+    if (questions_.service().draft({plan->question, scene, cancelled, answered})) return;
+    return done(failure(too_many_open("plans")));
   }
-  CheckView view = view_of(trial->outcome(), *cell_, jobs_);
-  view.scene_version = scene_.version();
-  done(std::move(view));
+  done(trial->outcome());
+}
+
+// Returns the arms that may leave their places before a motion that is planned now.
+std::vector<ArmId> Executive::Impl::may_move(const std::vector<ArmId>& staying) const {
+  std::vector<ArmId> arms = all_arms(*cell_);
+  std::erase_if(
+      arms, [&](ArmId arm) { return std::ranges::count(staying, arm) > 0 || !jobs_.has_job(arm); });
+  return arms;
 }
 
 struct Executive::Impl::OpenInquiry {
@@ -174,11 +194,7 @@ void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool
                            std::function<void(Result<PlanOutcome>)> done) {
   auto questions = questions_of(*cell_, inquiry, scheduler_.predicted_rest());
   if (!questions) return done(failure(std::move(questions.error())));
-  for (PlanQuestion& question : *questions) {
-    for (ArmId arm : all_arms(*cell_)) {
-      if (arm != question.goal.arm && jobs_.has_job(arm)) question.may_move.push_back(arm);
-    }
-  }
+  for (PlanQuestion& question : *questions) question.may_move = may_move({question.goal.arm});
   plan_next(std::make_shared<OpenInquiry>(OpenInquiry{std::move(inquiry), *std::move(questions),
                                                       std::move(cancelled), std::move(done)}));
 }
@@ -209,7 +225,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   };
   PlanTask task{std::move(question), scene_.scene(), inquiry->cancelled, judge};
   if (questions_.service().draft(std::move(task))) return;
-  inquiry->done(failure(too_many("plans")));
+  inquiry->done(failure(too_many_open("plans")));
 }
 
 }  // namespace armloom

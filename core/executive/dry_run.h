@@ -22,6 +22,10 @@ struct CheckedJob {
 // candidate arms, the arm that arrives first takes the job. If there is no plan, the verdicts of
 // this job and of the jobs that name it in `after` have a `result`.
 //
+// Each motion of a job with steps is checked like a job that begins when the steps before it are
+// done, in the scene of that time: with what all arms then hold. Waits for inputs take no time. The
+// verdict is that of the first motion that is not free (CheckView::step).
+//
 // Problems: an unknown policy; arms that are too close at home; the problems of
 // Executive::submit(), with pointers below "/<index>/job".
 [[nodiscard]] Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy,

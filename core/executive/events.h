@@ -83,6 +83,7 @@ struct CheckView {
   std::optional<ChoiceView> choice;       // for a goal with several candidate arms
   std::optional<double> move_to_start_s;  // time until the server has moved its arms to its start
   std::optional<JobResultView> result;    // set if the job would end at once
+  std::optional<std::size_t> step;        // of a task: index of the first step that is not free
 };
 // See scheduler/ways/replanning.h.
 struct AnotherWayView {

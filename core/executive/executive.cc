@@ -46,6 +46,10 @@ void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> can
                      std::function<void(Result<PlanOutcome>)> done) {
   impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
 }
+void Executive::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                     std::function<void(Result<StepsPlan>)> done) {
+  impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
+}
 void Executive::diagram(const std::string& key_a, const std::string& key_b,
                         std::function<void(Result<DiagramView>)> done) {
   impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},

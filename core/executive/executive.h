@@ -59,6 +59,12 @@ class JudgementService {
   virtual void plan(PlanTask task) = 0;
   // Plans for a client's inquiry. Returns false like consider().
   [[nodiscard]] virtual bool draft(PlanTask task) = 0;
+  // Runs `work` for a client's question, on any thread. Returns false like consider().
+  [[nodiscard]] virtual bool compute(std::function<void()> work, std::function<void()> done) {
+    work();
+    done();
+    return true;
+  }
 };
 
 struct Policy;
@@ -205,7 +211,9 @@ class Executive {
   // Problems: those of submit().
   [[nodiscard]] std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
   // Finds what would happen to the job if it were submitted now (Trial). Changes nothing. `done` is
-  // called on the strand, at once or later.
+  // called on the strand, at once or later. Of a job with steps, checks each motion in order: from
+  // where the step before it ends, with what the arms then hold, while all arms of other jobs are
+  // where they are now. Ends with the first that is not free.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   // Plans a trajectory without executing it, around all other arms where they will be after all
   // accepted jobs. Of several candidate arms, plans for the arm that arrives first. The outcome
@@ -214,6 +222,11 @@ class Executive {
   // "/to/...", "/start/..."); unavailable: too many plans are open.
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
+  // Plans all motions of a job with steps without executing them: each from where the step before
+  // it ends, with what the arms then hold. Changes nothing. Otherwise like plan() of a motion.
+  // Problems: those of submit(); unavailable: too many plans are open.
+  void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<StepsPlan>)> done);
   // Draws the coordination diagram of two jobs, active or ended. `done` is called on the strand, at
   // once or later. Problems: not_found; invalid: the jobs do not have two different arms;
   // unavailable: too many drawings are open. The pointer "?with" means `key_b`.

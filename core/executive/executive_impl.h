@@ -14,6 +14,7 @@
 #include "core/executive/hold_to_run.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/job_register.h"
+#include "core/executive/left_touch.h"
 #include "core/executive/link_watch.h"
 #include "core/executive/live_scene.h"
 #include "core/executive/open_questions.h"
@@ -26,6 +27,8 @@
 #include "core/scheduler/trial.h"
 
 namespace armloom {
+
+class TaskPreview;
 
 // The modules of the executive and their connections.
 class Executive::Impl {
@@ -54,6 +57,10 @@ class Executive::Impl {
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
+
+  // task_asking.cc
+  void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+            std::function<void(Result<StepsPlan>)> done);
 
   // executive_impl.cc
   void note(ExecutiveInput input) const;
@@ -112,7 +119,6 @@ class Executive::Impl {
   void set_touch(Task& task, const TouchOf& next);
   [[nodiscard]] std::vector<ArmId> arms_of(const Task& task) const;
   void clear_left_touch(const std::vector<ArmId>& arms);
-  [[nodiscard]] bool is_clear(const std::string& object, const std::vector<ArmId>& arms) const;
   void show_touch(const std::string& object);
   void fire_triggers(const MotionReport& report);
   void end_task(Task& task, TaskEnd end);
@@ -130,7 +136,23 @@ class Executive::Impl {
   void enter(Submit submitted, JobLabel label);
   struct OpenInquiry;
   void plan_next(const std::shared_ptr<OpenInquiry>& inquiry);
-  void walk(std::shared_ptr<Trial> trial, std::function<void(Result<CheckView>)> done);
+  using TrialEnd = Result<Trial::Outcome>;
+  // Answers the questions of the trial in this scene.
+  void walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
+            std::function<void(TrialEnd)> done);
+  [[nodiscard]] Trial::Open open_now();
+  [[nodiscard]] std::vector<ArmId> may_move(const std::vector<ArmId>& staying) const;
+
+  // task_asking.cc
+  struct OpenStepsPlan;
+  void plan_next(const std::shared_ptr<OpenStepsPlan>& open);
+  void plan_motion(const std::shared_ptr<OpenStepsPlan>& open);
+  [[nodiscard]] bool go_on(TaskPreview& preview, std::shared_ptr<void> owner,
+                           std::function<void(Result<bool>)> arrived);
+  struct OpenStepsCheck;
+  void check_steps(PreparedJob job, Configuration at, std::function<void(Result<CheckView>)> done);
+  void check_next(const std::shared_ptr<OpenStepsCheck>& open);
+  [[nodiscard]] Trial trial_of(const OpenStepsCheck& open);
 
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void carry_out(const Effect& effect);
@@ -165,12 +187,10 @@ class Executive::Impl {
   TimePoint task_wakes_at_ = TimePoint::max();  // a wait of a step is over
   std::set<JobId> tasks_at_end_;                // their last motion has ended
   bool tasks_are_busy_ = false;                 // go_on_with_tasks() runs
-  // What ended steps allowed to touch, by object, while one of their arms has not left the object.
-  struct TouchLeft {
-    std::vector<ArmId> arms;
-    Touch touch;
-  };
-  std::map<std::string, TouchLeft> touch_left_;
+  LeftTouch touch_left_;
 };
+
+// Returns the problem that too many questions of clients ("checks", "plans") are open.
+[[nodiscard]] Problem too_many_open(const std::string& what);
 
 }  // namespace armloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -81,6 +82,16 @@ std::size_t PreparedJob::bytes() const {
     if (step.motion) bytes += bytes_of(step.motion->alternatives);
   }
   return bytes;
+}
+
+std::vector<ArmId> PreparedJob::arms_of_steps() const {
+  std::set<ArmId> arms;
+  for (const PreparedStep& step : steps) {
+    if (!step.motion) continue;
+    const std::vector<ArmId>& moved = step.motion->alternatives.front()->arms();
+    arms.insert(moved.begin(), moved.end());
+  }
+  return {arms.begin(), arms.end()};
 }
 
 std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {

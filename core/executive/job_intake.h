@@ -33,12 +33,11 @@ struct PreparedJob {
   std::vector<std::string> after;
 
   [[nodiscard]] std::size_t bytes() const;
+  // Returns the arms that the motions of a task move, ascending.
+  [[nodiscard]] std::vector<ArmId> arms_of_steps() const;
 };
 
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
-
-// Returns a problem if the job has steps, because such a job cannot be checked before it runs.
-[[nodiscard]] std::optional<Problem> find_unchecked_steps(const JobRequest& request);
 
 // Checks requests against the cell and the accepted jobs.
 class JobIntake {

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/collision/scene/planning_scene.h"
 #include "core/executive/events.h"
+#include "core/executive/job_request.h"
 #include "core/planning/answer_plan.h"
 #include "core/planning/plan_goal.h"
 
@@ -69,5 +71,28 @@ struct RefusedInquiry {
   decltype(Problem::value) value = {};
 };
 using PlanOutcome = tl::expected<PlanView, RefusedInquiry>;
+// Sets the place of a goal that has no plan: the joint, or the whole goal. `place`: of the goal.
+void point_at_goal(const std::string& place, const PlanGoal& said, RefusedInquiry& refused);
+
+// Asks for a plan of all motions of a job with steps. Only the steps, the arm and the speed of the
+// job have an effect on the plan.
+struct StepsInquiry {
+  JobRequest job;
+  std::uint64_t seed = 1;
+  std::optional<int> budget = {};  // for each goal; PlanQuestion::budget, from 1 to kPlanBudgetMax
+};
+struct PlannedStep {
+  std::string name;                    // may be empty
+  std::string kind;                    // kind_of()
+  std::string detail;                  // what it does: "part to left_hand"
+  std::vector<std::string> arms = {};  // of a motion
+  TrajectoryPtr motion = nullptr;      // null for actions
+  std::uint64_t evaluations = 0;       // of the search for the path to a goal
+};
+struct StepsPlan {
+  std::vector<PlannedStep> steps;  // all, or those before the first that cannot be planned
+  // Why that step cannot be planned; pointers begin with "/steps/2".
+  std::variant<std::monostate, RefusedInquiry, Problems> refused = {};
+};
 
 }  // namespace armloom

@@ -150,6 +150,19 @@ class RealTimeLoop::Impl final : public JudgementService {
     return true;
   }
 
+  bool compute(std::function<void()> work, std::function<void()> done) override {
+    if (open_.considered >= kConsideredMax) return false;
+    ++open_.considered;
+    considerer_.worker.post([this, work = std::move(work), done = std::move(done)] {
+      work();
+      post_urgent([this, done](Executive&) {
+        --open_.considered;
+        done();
+      });
+    });
+    return true;
+  }
+
   void edit_scene(SceneEdit edit, ObjectsTo objects_to,
                   std::function<void(const Result<SceneEdited>&)> then) {
     post([this, edit = std::make_shared<WaitingEdit>(WaitingEdit{

@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "core/collision/check/line_checker.h"
 #include "core/executive/executive_impl.h"
 #include "core/executive/task_view.h"
 #include "core/jobs/waits.h"
@@ -125,8 +124,7 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
   return true;
 }
 
-// Sets what the task allows to touch. What it no longer allows stays allowed until the hand has
-// left the object: otherwise the arm could not move away.
+// Sets what the task allows to touch.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
   const std::vector<ArmId> arms = arms_of(task);
   std::set<std::string> changed;
@@ -134,12 +132,9 @@ void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
     const auto same = next.find(object);
     if (same != next.end() && same->second == touch) continue;
     changed.insert(object);
-    TouchLeft& left = touch_left_[object];
-    left.arms.insert(left.arms.end(), arms.begin(), arms.end());
-    left.touch.add(touch);  // is_clear() ignores what is allowed anyway
+    touch_left_.leave(object, touch, arms);
   }
   for (const auto& [object, touch] : next) changed.insert(object);
-  clear_left_touch(arms);
   for (const std::string& object : changed) show_touch(object);
 }
 
@@ -153,40 +148,18 @@ std::vector<ArmId> Executive::Impl::arms_of(const Task& task) const {
   return arms;
 }
 
-// Ends the allowances of ended steps of these arms, for objects that the arms have left.
+// These arms may have left the objects at which ended steps let them be.
 void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
-  std::vector<std::string> cleared;
-  std::erase_if(touch_left_, [&](const auto& left) {
-    const auto& [object, of] = left;
-    const bool is_of_these = std::ranges::find_first_of(of.arms, arms) != of.arms.end();
-    if (!is_of_these || !is_clear(object, of.arms)) return false;
-    cleared.push_back(object);
-    return true;
-  });
-  for (const std::string& object : cleared) show_touch(object);  // may end other allowances
-}
-
-// Returns true if the arms can move from where they rest without the allowances of ended steps.
-bool Executive::Impl::is_clear(const std::string& object, const std::vector<ArmId>& arms) const {
-  const PlanningScene& scene = *scene_.scene();
-  const auto without = scene.with(touching(scene, object, tasks_.touch_of(object)));
-  if (!without) return true;  // the object is gone
-  const Configuration& measured = execution_.motions().measured();
-  return std::ranges::all_of(arms, [&](ArmId arm) {
-    return LineChecker(*without, arm, measured, TrackingErrors(*cell_))
-               .state(joints_of(measured, cell_->arm(arm).joints))
-               .kind == LineChecker::Kind::free;
-  });
+  for (const std::string& object : touch_left_.of(arms)) show_touch(object);
 }
 
 // Allows in the scene what the steps allow at present, and what ended steps left.
 void Executive::Impl::show_touch(const std::string& object) {
-  Touch touch = tasks_.touch_of(object);
-  const auto left = touch_left_.find(object);
-  if (left != touch_left_.end()) touch.add(left->second.touch);
-  const PlanningScene& scene = *scene_.scene();
-  if (touch_in(scene, object) == touch) return;
-  (void)scene_.change(touching(scene, object, std::move(touch)));  // names and links are known
+  Touch touch = touch_left_.allowed(scene_.scene(), execution_.motions().measured(), object,
+                                    tasks_.touch_of(object));
+  if (touch_in(*scene_.scene(), object) == touch) return;
+  // Names and links are known.
+  (void)scene_.change(touching(*scene_.scene(), object, std::move(touch)));
 }
 
 // Fires the triggers of motions that have come so far.

@@ -17,9 +17,10 @@
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
-namespace {
 
-std::string place_of(std::size_t i) { return "/steps/" + std::to_string(i); }
+std::string place_of_step(std::size_t i) { return "/steps/" + std::to_string(i); }
+
+namespace {
 
 // Checks the steps in their order.
 class StepCheck {
@@ -50,7 +51,7 @@ class StepCheck {
       problems_.push_back(
           {ProblemKind::invalid,
            "ends-with-wait",
-           place_of(steps_.size() - 1),
+           place_of_step(steps_.size() - 1),
            "no step comes after this wait: leave it out, or add the step that waits",
            {}});
     }
@@ -60,7 +61,7 @@ class StepCheck {
   void add(const char* slug, const std::string& member, std::string detail,
            const std::string& value) {
     problems_.push_back(
-        {ProblemKind::invalid, slug, place_of(at_) + member, std::move(detail), value});
+        {ProblemKind::invalid, slug, place_of_step(at_) + member, std::move(detail), value});
   }
 
   void look(const MotionStepRequest& motion) {
@@ -73,7 +74,7 @@ class StepCheck {
   void look(const GripperStepRequest& gripper) {
     if (auto found = joints_at_width(cell_, gripper); !found) {
       for (Problem& problem : found.error()) {
-        problem.pointer = place_of(at_) + problem.pointer;
+        problem.pointer = place_of_step(at_) + problem.pointer;
         problems_.push_back(std::move(problem));
       }
     }
@@ -141,7 +142,7 @@ class StepCheck {
     }
   }
   void look_at_value(const std::string& signal, const SignalValue& value, const std::string& at) {
-    const std::string place = place_of(at_) + at;
+    const std::string place = place_of_step(at_) + at;
     auto bad = find_bad_value(cell_.io, signal, value, ProblemKind::invalid, place + "/name",
                               place + "/value");
     if (bad) problems_.push_back(*std::move(bad));
@@ -271,7 +272,7 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
     }
     Problems found;
     step.motion = read_step(asked, request, is_first, ahead, found);
-    add_below(place_of(i), std::move(found), problems);
+    add_below(place_of_step(i), std::move(found), problems);
     if (!problems.empty()) return {};
     const bool is_gripper = std::holds_alternative<GripperStepRequest>(asked.what);
     const bool changes = before == nullptr ? !touch[i].empty() : touch[i] != *before;
@@ -298,7 +299,7 @@ PreparedMotion JobIntake::read_step(const StepRequest& asked, const JobRequest& 
   JobRequest alone;
   alone.trajectory = motion.trajectory;
   alone.move_to = motion.move_to;
-  alone.arm = motion.arm.empty() && motion.move_to ? request.arm : motion.arm;
+  alone.arm = motion.arm;
   alone.speed = motion.speed ? motion.speed : request.speed;
   if (is_first) alone.terms.move_to_start = request.terms.move_to_start;
   if (motion.move_to) alone.terms.move_to_start = MoveToStart::none;
@@ -313,17 +314,6 @@ Result<TrajectoryPtr> gripper_motion(const GripperStepRequest& gripper, const Ce
   request.arm = gripper.arm;
   request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = {}, .gripper = *positions};
   return gripper_motion(request, cell, rest);
-}
-
-std::optional<Problem> find_unchecked_steps(const JobRequest& request) {
-  if (request.steps.empty()) return std::nullopt;
-  return Problem{ProblemKind::unsupported,
-                 "not-served",
-                 "/steps",
-                 "a job with steps cannot be checked without running it, because its steps change "
-                 "the scene: check each motion as a job of its own, or run the job with armloom "
-                 "simulate",
-                 {}};
 }
 
 }  // namespace armloom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "core/model/cell.h"
 
 namespace armloom {
+
+// Returns the JSON pointer "/steps/2".
+[[nodiscard]] std::string place_of_step(std::size_t i);
 
 // The objects of the cell when a task is submitted.
 struct PresentObjects {

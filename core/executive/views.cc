@@ -268,4 +268,33 @@ CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobName
   return view;
 }
 
+namespace {
+
+std::optional<double> smaller(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? std::optional(std::min(*a, *b)) : std::nullopt;
+}
+
+}  // namespace
+
+void add_step(CheckView& all, CheckView one, std::size_t step, bool is_first) {
+  one.scene_version = all.scene_version;
+  if (one.kind != Verdict::Kind::free) one.step = step;
+  if (one.result) one.result->step = step;
+  if (!is_first) {
+    one.earliest_start_s = all.earliest_start_s;
+    one.move_to_start_s = all.move_to_start_s;
+    one.evaluations += all.evaluations;
+    one.clearance_bound_m = smaller(one.clearance_bound_m, all.clearance_bound_m);
+    one.self_clearance_bound_m = smaller(one.self_clearance_bound_m, all.self_clearance_bound_m);
+    if (one.kind == Verdict::Kind::free) one.waits_on = std::move(all.waits_on);
+  }
+  all = std::move(one);
+}
+
+CheckView failed_step(const Problems& problems) {
+  CheckView view{.kind = Verdict::Kind::conflict};
+  view.result = {Reason::step_failed, problems.front().detail};
+  return view;
+}
+
 }  // namespace armloom

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
+#include "core/base/problem.h"
 #include "core/executive/events.h"
 #include "core/jobs/step.h"
 #include "core/model/cell.h"
@@ -32,5 +34,10 @@ class JobNames {
 // Returns the view of a check's outcome, without the scene version.
 [[nodiscard]] CheckView view_of(const Trial::Outcome& outcome, const Cell& cell,
                                 const JobNames& names);
+// Adds the verdict on a motion of a task to the verdict on the motions before it, which are free.
+// `step`: the index of the motion.
+void add_step(CheckView& all, CheckView one, std::size_t step, bool is_first);
+// Returns the verdict on a step that cannot be done.
+[[nodiscard]] CheckView failed_step(const Problems& problems);
 
 }  // namespace armloom

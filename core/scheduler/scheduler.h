@@ -66,6 +66,9 @@ class Scheduler {
   // Returns the time of the last WakeAt.
   [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
   [[nodiscard]] const Policy& policy() const { return *state_->policy; }
+  [[nodiscard]] const std::shared_ptr<const Policy>& shared_policy() const {
+    return state_->policy;
+  }
   // Returns true if no motion is admitted; otherwise ChangePolicy is ignored.
   [[nodiscard]] bool may_change_policy() const { return state_->graph.motions().empty(); }
   // `question` has a single candidate, and `verdict` is its answer. Returns the candidate's

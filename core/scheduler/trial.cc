@@ -4,13 +4,20 @@
 #include <utility>
 
 #include "core/jobs/waits.h"
+#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 
 Trial::Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
-             TimePoint now)
+             TimePoint now, std::vector<Submit> behind)
     : scheduler_(std::move(scheduler)), job_(asked), now_(now), open_(std::move(open)) {
   for (const Submit& job : jobs) step(job);
+  for (JobId before = asked; Submit & motion : behind) {
+    motion.job = scheduler_.next_job();
+    motion.after = {std::exchange(before, motion.job)};
+    motion.task = asked;
+    step(motion);
+  }
 }
 
 void Trial::step(const Input& input) {
@@ -132,6 +139,40 @@ Trial::Outcome Trial::outcome() const {
   }
   if (last_ && last_->kind == Verdict::Kind::undecided) outcome.kind = Verdict::Kind::undecided;
   return outcome;
+}
+
+Scheduler with_arms_at(const Scheduler& present, const CellPtr& cell,
+                       const std::vector<ArmId>& arms, const Configuration& at, TimePoint now) {
+  Configuration rest = present.rest();
+  std::vector<Motion> under_way;
+  std::vector<ArmId> taken = arms;
+  for (const JobId id : present.active()) {
+    const Step& step = *present.find(id);
+    if (!step.has_authority()) continue;
+    const std::vector<ArmId>& moved = step.trajectory->arms();
+    if (std::ranges::find_first_of(moved, arms) != moved.end()) {
+      set_joints(rest, *step.trajectory, step.trajectory->goal());
+    } else if (std::ranges::find_first_of(moved, taken) == moved.end()) {
+      taken.insert(taken.end(), moved.begin(), moved.end());
+      under_way.push_back({step.id, step.trajectory, step.progress});
+    }
+  }
+  for (const ArmId arm : arms) {
+    const std::vector<JointId> joints = joints_and_gripper(cell->arm(arm));
+    set_joints(rest, joints, joints_of(at, joints));
+  }
+  std::ranges::sort(under_way, {}, [](const Motion& motion) { return motion.step.job; });
+  Scheduler scheduler(cell, present.shared_policy(), std::move(rest), under_way, now);
+  const SpeedOverride& speed = present.speed();
+  (void)scheduler.step(SetSpeed{std::nullopt, speed.cell()}, now);
+  for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
+    const ArmId arm{a};
+    if (speed.arm(arm) != 1.0) (void)scheduler.step(SetSpeed{arm, speed.arm(arm)}, now);
+    if (const auto& stop = present.stop_of(arm)) {
+      (void)scheduler.step(Stop({{arm, stop->cause, stop->until_connected}}), now);
+    }
+  }
+  return scheduler;
 }
 
 }  // namespace armloom

@@ -26,9 +26,9 @@ class Trial {
     std::vector<PlanMotion> plans = {};
   };
   // Submits `jobs` to the copy in this order. The trial is about the job `asked`, which is one of
-  // them.
-  Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
-        TimePoint now);
+  // them. `behind`: further motions of its task, each after the one before; their ids are set here.
+  Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked, TimePoint now,
+        std::vector<Submit> behind = {});
 
   // Returns the question to be answered next; nullopt if a plan is needed or the outcome is known.
   [[nodiscard]] std::optional<Question> next() const;
@@ -81,5 +81,12 @@ class Trial {
   std::vector<Wait> waits_;           // as last published
   std::uint64_t evaluations_ = 0;
 };
+
+// Returns a scheduler for a trial in which these arms have ended their jobs and rest at `at`
+// (positions of all joints). Other arms are as in `present`: in motion, at rest, stopped. Jobs that
+// wait are left out.
+[[nodiscard]] Scheduler with_arms_at(const Scheduler& present, const CellPtr& cell,
+                                     const std::vector<ArmId>& arms, const Configuration& at,
+                                     TimePoint now);
 
 }  // namespace armloom

@@ -134,7 +134,11 @@ PartPtr<CheckView> make_verdict_part() {
                 "covers that motion. If the job cannot be admitted together with that motion, it "
                 "is checked again at its start"),
       output_if("result", &View::result, result_format(),
-                "Result of a job that would end at once without moving"),
+                "Result of a job that would end at once without moving. Of a job with steps: its "
+                "result if it would end before the motion of `step`"),
+      output_if("step", &View::step, count(),
+                "Only of a job with steps that is not `free`: index of the first step that is not. "
+                "`verdict`, `waits_on`, `conflicts` and `result` are those of this step"),
   });
 }
 

@@ -30,9 +30,15 @@ bool is_key(std::string_view key) {
   return !key.empty() && key.size() <= kJobKeyMax && allowed && key != "." && key != "..";
 }
 
-std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
+std::vector<TrajectoryRequest*> own_motions_of(JobRequest& request) {
   std::vector<TrajectoryRequest*> motions{&request.trajectory};
   for (TrajectoryRequest& other : request.alternatives) motions.push_back(&other);
+  return motions;
+}
+
+// Those of steps included.
+std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
+  std::vector<TrajectoryRequest*> motions = own_motions_of(request);
   for (StepRequest& step : request.steps) {
     auto* motion = std::get_if<MotionStepRequest>(&step.what);
     if (motion != nullptr && !motion->move_to) motions.push_back(&motion->trajectory);
@@ -98,7 +104,7 @@ PartPtr<JobRequest> arm_part() {
   return member<Request>(
       {"arm",
        "With `move_to`: the arm that moves. With `trajectory`: joint names may lack the prefix of "
-       "this arm's robot",
+       "this arm's robot. With `steps`: default of the steps",
        Need::optional,
        {}},
       formats::name(),
@@ -108,6 +114,10 @@ PartPtr<JobRequest> arm_part() {
       [](Request& request, std::string arm) {
         for (TrajectoryRequest* motion : motions_of(request)) {
           if (motion->arm.empty()) motion->arm = arm;
+        }
+        for (StepRequest& step : request.steps) {
+          auto* motion = std::get_if<MotionStepRequest>(&step.what);
+          if (motion != nullptr && motion->move_to && motion->arm.empty()) motion->arm = arm;
         }
         request.arm = std::move(arm);
       });
@@ -241,6 +251,10 @@ PartPtr<JobRequest> wrapper_parts() {
   });
 }
 
+FormatPtr<std::vector<StepRequest>> steps_format() {
+  return list(step_request_format(), {.fewest = 1, .most = kStepsMax, .noun = "steps"});
+}
+
 FormatPtr<JobRequest> plain_job_format() {
   using Request = JobRequest;
   return named(
@@ -257,8 +271,7 @@ FormatPtr<JobRequest> plain_job_format() {
                                        unless("args", required("trajectory", &Request::trajectory,
                                                                trajectory_request_format(),
                                                                "Motion of the job"))))))),
-          field("steps", &Request::steps,
-                list(step_request_format(), {.fewest = 1, .most = kStepsMax, .noun = "steps"}),
+          field("steps", &Request::steps, steps_format(),
                 "Instead of `trajectory`: steps that are executed in this order. Other jobs of the "
                 "same arms wait until the last motion has ended"),
           field("goal", &Request::trajectory, action_goal_format(),
@@ -303,7 +316,7 @@ class JobOrMessage final : public CustomFormat<JobRequest> {
     if (is_bare) out.trajectory.place = node.pointer();
     // The place is relative to the job.
     const std::size_t above = node.pointer().size();
-    for (TrajectoryRequest* motion : motions_of(out)) {
+    for (TrajectoryRequest* motion : own_motions_of(out)) {
       if (motion->place) motion->place->erase(0, above);
     }
   }
@@ -324,6 +337,15 @@ class JobOrMessage final : public CustomFormat<JobRequest> {
 };
 
 }  // namespace
+
+PartPtr<JobRequest> steps_job_parts() {
+  return parts<JobRequest>({
+      label_parts(),
+      required("steps", &JobRequest::steps, steps_format(),
+               "Steps that are executed in this order"),
+      parts_after_trajectory(),
+  });
+}
 
 FormatPtr<std::string> job_id_format() {
   static const auto format =

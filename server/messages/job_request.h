@@ -8,11 +8,14 @@
 #include "core/executive/executive.h"
 #include "core/executive/simulation.h"
 #include "server/codec/format.h"
+#include "server/codec/part.h"
 
 namespace armloom {
 
 // Body of POST /jobs.
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
+// The members of a job with `steps`, for an object that has other members too.
+[[nodiscard]] formats::PartPtr<JobRequest> steps_job_parts();
 [[nodiscard]] FormatPtr<std::string> job_id_format();
 // Returns true if the name has at most kJobNameMax characters and no control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);

@@ -3,7 +3,6 @@
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/output_part.h"
-#include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
@@ -30,19 +29,11 @@ FormatPtr<PlanInquiry> plan_inquiry_format() {
           field("start", &Inquiry::from, plan_goal_format(),
                 "Start of the motion, as joints or a named state; default: where the arm will be "
                 "after all accepted jobs"),
-          field("seed", &Inquiry::seed, count(),
-                "Seed of the search; the same seed gives the same plan"),
-          field("budget", &Inquiry::budget, integer(1, kPlanBudgetMax),
-                "Maximum number of evaluations (checked line segments) of the search; default: "
-                "400,000. Most plans take a few thousand, a straight line none"),
+          search_parts<Inquiry>(),
           field("velocity_scaling_factor", &Inquiry::speed, number({kVelocityScalingMin, 1.0}),
                 "Velocity scaling, 0 to 1; default: the cell's"),
       }));
   return format;
-}
-
-Result<PlanInquiry> read_plan_inquiry_text(std::string_view text) {
-  return read_text(*plan_inquiry_format(), text);
 }
 
 namespace {

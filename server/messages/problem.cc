@@ -8,6 +8,7 @@
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
+#include "server/messages/steps_plan.h"
 
 namespace armloom {
 
@@ -45,6 +46,10 @@ FormatPtr<ProblemDocument::Error> error_format() {
 
 std::optional<std::vector<ProblemDocument::Error>> errors_of(const ProblemDocument& document) {
   return document.errors.empty() ? std::nullopt : std::optional(document.errors);
+}
+
+std::optional<std::vector<StepPlan>> steps_of(const ProblemDocument& document) {
+  return document.steps ? std::optional(*document.steps) : std::nullopt;
 }
 
 constexpr const char* kTypePrefix = "urn:armloom:problem:";
@@ -106,6 +111,8 @@ FormatPtr<ProblemDocument> problem_format() {
                     "the farthest point on the line"),
           output_if("evaluations", &Document::evaluations, count(),
                     "Evaluations that planning took"),
+          output_if("steps", steps_of, list(step_plan_format()),
+                    "If a step of a job cannot be planned: the steps before it"),
       }));
   return format;
 }

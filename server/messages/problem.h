@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include "server/codec/format.h"
 
 namespace armloom {
+
+struct StepPlan;  // server/messages/steps_plan.h
 
 [[nodiscard]] int status_of(ProblemKind kind);
 
@@ -34,6 +37,8 @@ struct ProblemDocument {
   std::optional<double> required_clearance_m = {};
   std::optional<std::vector<double>> nearest = {};  // nearest usable joint positions
   std::optional<std::uint64_t> evaluations = {};
+  // Set only if a step of a job cannot be planned: the steps before it.
+  std::shared_ptr<const std::vector<StepPlan>> steps = {};
 };
 [[nodiscard]] FormatPtr<ProblemDocument> problem_format();
 

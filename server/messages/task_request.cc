@@ -140,7 +140,8 @@ FormatPtr<WaitBody> wait_format() {
        required("wait_s", &WaitBody::time, seconds({0.0, kTimeMax_s}), "Waits for this time")});
 }
 
-MotionStepRequest motion_of(MotionBody& body) {
+// `above`: size of the pointer to the step.
+MotionStepRequest motion_of(MotionBody& body, std::size_t above) {
   MotionStepRequest motion{.trajectory = {},
                            .move_to = std::move(body.move_to),
                            .arm = body.arm,
@@ -149,6 +150,7 @@ MotionStepRequest motion_of(MotionBody& body) {
   if (body.trajectory) {
     motion.trajectory = std::move(*body.trajectory);
     motion.trajectory.arm = body.arm;
+    if (motion.trajectory.place) motion.trajectory.place->erase(0, above);
     if (body.speed) slow_down(motion.trajectory, *body.speed);
   }
   for (Trigger& trigger : body.triggers) {
@@ -166,7 +168,7 @@ class StepFormat final : public CustomFormat<StepRequest> {
                       [motion](const JsonNode& node, StepRequest& out) {
                         MotionBody body;
                         motion.read(node, body);
-                        out = {std::move(body.name), motion_of(body)};
+                        out = {std::move(body.name), motion_of(body, node.pointer().size())};
                       },
                       motion.schema(Way::in)});
     add("gripper", gripper_format(), "Moves the fingers of the gripper");

@@ -181,6 +181,14 @@ test('good and bad jobs are answered as documented', async () => {
     const plan = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', goal)});
     assert.equal(plan.verdict.verdict, 'free', JSON.stringify(plan));
   }
+  const planned = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', 'steps')});
+  assert.equal(planned.steps.length, 2);
+  const twice = {steps: [{move_to: {named: 'ready'}, arm: 'left'}, {move_to: {pose: {xyz: [0, 9, 0.5]}}, arm: 'left'}]};
+  const second = await call(422, 'POST', `${v1}/plan`, {body: twice});
+  assert.equal(second.pointer, '/steps/1/move_to/pose');
+  assert.equal(second.steps.length, 1);
+  const checked = await call(200, 'POST', `${v1}/check`, {body: twice});
+  assert.equal(checked.step, 1);
   const far = {pose: {link: 'left_panda_link8', xyz: [0, 9, 0.5], rpy: [0, 0, 0]}};
   const refusal = await call(422, 'POST', `${v1}/plan`, {body: {arm: 'left', to: far}});
   assert.match(refusal.type, /goal-not-reached/);
@@ -188,6 +196,7 @@ test('good and bad jobs are answered as documented', async () => {
   await call(202, 'POST', `${v1}/jobs`, {body: reach});
   await call(200, 'POST', `${v1}/jobs`, {body: reach});
   await call(409, 'POST', `${v1}/jobs`, {body: {...reach, priority: 7}});
+  await call(409, 'POST', `${v1}/plan`, {body: {...twice, id: reach.id}});
   await call(409, 'POST', `${v1}/check`, {body: reach});
   await call(409, 'PUT', `${v1}/policy`, {body: {policy: 'sequential'}});  // a job is moving
   const right = (text) => JSON.parse(JSON.stringify(text).replaceAll('left_', 'right_'));

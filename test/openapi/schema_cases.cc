@@ -18,11 +18,11 @@
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
-#include "server/messages/plan.h"
 #include "server/messages/plan_goal.h"
 #include "server/messages/scene.h"
 #include "server/messages/session.h"
 #include "server/messages/signal.h"
+#include "server/messages/steps_plan.h"
 #include "server/messages/task_request.h"
 
 namespace armloom {
@@ -74,7 +74,7 @@ std::vector<Incoming> all_incoming() {
           incoming("SpeedOverride", *speed_override_format()),
           incoming("Goal", *plan_goal_format()),
           incoming("cell file", cell_format()),
-          incoming("PlanRequest", *plan_inquiry_format()),
+          incoming("PlanRequest", *plan_body_format()),
           incoming("LogIn", *log_in_format()),
           incoming("JobAmendment", *job_amendment_format()),
           incoming("AlertsSeen", *alerts_seen_format()),

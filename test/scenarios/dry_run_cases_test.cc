@@ -2,6 +2,7 @@
 
 #include "core/executive/dry_run.h"
 #include "test/scenarios/polygon.h"
+#include "test/scenarios/tasks.h"
 
 namespace armloom {
 namespace {
@@ -91,6 +92,87 @@ TEST(DryRun, NamesNoJobOfTheFileForARetreat) {
   EXPECT_EQ(wait.kind, Wait::Kind::job);
   EXPECT_EQ(wait.job, "");
   EXPECT_EQ(wait.detail, "a motion that the server would add and run first");
+}
+
+// ---- Jobs with steps ----
+
+CellDescription with_part(double x) {
+  CellDescription cell = with_io();
+  cell.objects.push_back({"part", Sphere{kPart_m}, part_at(x).X_WO});
+  return cell;
+}
+
+std::vector<CheckedJob> dry_run(const CellDescription& description,
+                                const std::vector<TimedJob>& jobs) {
+  const auto cell = build_cell(description);
+  if (!cell) throw std::runtime_error(cell.error().front().detail);
+  auto checked = check_jobs(*cell, "certified", jobs);
+  if (!checked) throw std::runtime_error(checked.error().front().detail);
+  return *std::move(checked);
+}
+
+TEST(DryRunOfTasks, KeepsWhatAnArmHoldsForLaterJobs) {
+  for (const bool holds : {true, false}) {
+    std::vector<StepRequest> steps{slide_to("x", -0.6), slide_to("x", -0.28)};
+    if (holds) steps.insert(steps.begin() + 1, attach("x_ball"));
+    const auto checked =
+        dry_run(holds ? with_part(-0.47) : with_io(),
+                {{at(0s), task("pick", steps)}, {at(20s), slide("y", -1, 1, 2, "crosses")}});
+    ASSERT_EQ(checked.size(), 2U);
+    EXPECT_EQ(checked[0].verdict.kind, Verdict::Kind::free);
+    EXPECT_EQ(checked[0].key, "pick");
+    const CheckView& crosses = checked[1].verdict;
+    EXPECT_EQ(crosses.kind, holds ? Verdict::Kind::conflict : Verdict::Kind::free);
+    EXPECT_FALSE(crosses.step) << "it has no steps";
+    if (!holds) continue;
+    ASSERT_FALSE(crosses.conflicts.empty());
+    EXPECT_EQ(crosses.conflicts.front().arm, "x");
+  }
+}
+
+TEST(DryRunOfTasks, NamesTheFirstStepThatIsNotFree) {
+  const auto checked = dry_run(with_part(-0.47), {{at(0s), slide("y", -1, 0, 1, "rests there")},
+                                                  {at(5s), task("pick", into_y(true))},
+                                                  {at(60s), slide("y", 0, 1, 1, "goes on")}});
+  EXPECT_EQ(checked[0].verdict.kind, Verdict::Kind::free);
+  const CheckView& pick = checked[1].verdict;
+  EXPECT_EQ(pick.kind, Verdict::Kind::conflict);
+  EXPECT_EQ(pick.step, 2U);
+  EXPECT_EQ(checked[2].key, "goes on");
+}
+
+TEST(DryRunOfTasks, PicksUpWhatAJobBeforePutDown) {
+  std::vector<StepRequest> again{slide_to("x", 0.5), attach("x_ball"), slide_to("x", 0.2), detach(),
+                                 slide_to("x", -1.0)};
+  JobRequest behind = slide("y", -1, -0.8, 1, "behind");
+  behind.after = {"again"};
+  const auto checked = dry_run(
+      with_part(0.13),
+      {{at(0s), task("pick", pick_and_place())}, {at(0s), task("again", again)}, {at(0s), behind}});
+  ASSERT_EQ(checked.size(), 3U);
+  for (const CheckedJob& job : checked) {
+    EXPECT_EQ(job.verdict.kind, Verdict::Kind::free) << job.key;
+  }
+  EXPECT_EQ(checked[0].verdict.earliest_start_s, 0.0);
+  EXPECT_GT(checked[1].verdict.earliest_start_s.value_or(0.0), 1.0) << "when pick has ended";
+  EXPECT_GT(checked[2].verdict.earliest_start_s.value_or(0.0),
+            *checked[1].verdict.earliest_start_s);
+}
+
+TEST(DryRunOfTasks, FailsAtTheStepAndWithItTheJobsAfter) {
+  JobRequest behind = slide("y", -1, -0.8, 1, "behind");
+  behind.after = {"pick"};
+  const auto checked =
+      dry_run(with_part(0.13),
+              {{at(0s), task("pick", {slide_to("x", -0.5), attach("x_ball"), slide_to("x", 0.5)})},
+               {at(0s), behind}});
+  const CheckView& pick = checked[0].verdict;
+  ASSERT_TRUE(pick.result);
+  EXPECT_EQ(pick.result->reason, Reason::step_failed);
+  EXPECT_EQ(pick.step, 1U);
+  EXPECT_EQ(pick.earliest_start_s, 0.0) << "the first motion is free";
+  ASSERT_TRUE(checked[1].verdict.result);
+  EXPECT_EQ(checked[1].verdict.result->reason, Reason::predecessor_failed);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Jobs with steps: motions, and actions between them.
 #include <gmock/gmock.h>
 
-#include <cmath>
+#include <atomic>
 #include <map>
+#include <memory>
 
-#include "core/collision/state/clearance_query.h"
-#include "test/scenarios/task_cell.h"
+#include "test/scenarios/tasks.h"
 
 namespace armloom {
 namespace {
@@ -217,6 +217,21 @@ TEST(Task, RefusesWhatCannotBeDone) {
     EXPECT_EQ(answer.error().front().slug, one.slug);
     EXPECT_EQ(answer.error().front().pointer, one.pointer) << one.slug;
     EXPECT_TRUE(cell.executive().all_ended());
+    std::vector<Problems> others;  // of questions about the same job
+    const auto keep = [&](const auto& result) {
+      ASSERT_FALSE(result) << one.slug;
+      others.push_back(result.error());
+    };
+    cell.executive().check(task("bad", one.steps), keep);
+    cell.executive().plan(StepsInquiry{task("bad", one.steps)},
+                          std::make_shared<std::atomic<bool>>(false), keep);
+    ASSERT_EQ(others.size(), 2U);
+    for (const Problems& problems : others) {
+      ASSERT_EQ(problems.size(), answer.error().size());
+      EXPECT_EQ(problems.front().slug, one.slug);
+      EXPECT_EQ(problems.front().pointer, one.pointer);
+      EXPECT_EQ(problems.front().detail, answer.error().front().detail);
+    }
   }
 }
 

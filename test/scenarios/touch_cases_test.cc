@@ -1,7 +1,7 @@
 // Jobs with steps at an object: what may touch it, and which job has its arm.
 #include <gmock/gmock.h>
 
-#include "test/scenarios/task_cell.h"
+#include "test/scenarios/tasks.h"
 
 namespace armloom {
 namespace {

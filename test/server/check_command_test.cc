@@ -58,5 +58,42 @@ TEST_F(CheckCommand, NamesBadJobsWithFilePlaceAndValue) {
   EXPECT_NE(policy.err.find("hopeful"), std::string::npos) << policy.err;
 }
 
+TEST_F(CheckCommand, GoesThroughTheStepsOfAJob) {
+  const std::string cell =
+      changed_cell("/objects/-",
+                   {{"name", "part"}, {"box", {0.04, 0.04, 0.08}}, {"xyz", {-0.1, 0.35, 0.141}}})
+          .string();
+  const auto hand_to = [](double y_m) -> json {
+    const json pose = {
+        {"link", "left_panda_hand"}, {"xyz", {-0.1, y_m, 0.25}}, {"rpy", {3.14159265, 0, 0.785}}};
+    return {{"arm", "left"}, {"move_to", {{"pose", pose}}}};
+  };
+  const json attach = {
+      {"attach", {{"object", "part"}, {"link", "left_panda_hand"}, {"touch", {"table"}}}}};
+  const json ready = {{"arm", "left"}, {"move_to", {{"named", "ready"}}}};
+  const json holds = {hand_to(0.35), attach, ready, hand_to(-0.35)};
+  const json bare = {hand_to(0.35), ready, hand_to(-0.35)};
+  for (const json& steps : {holds, bare}) {
+    const json jobs = {{{"at", 0}, {"job", {{"id", "pick"}, {"steps", steps}}}}};
+    const Outcome outcome = run("check --cell " + (steps == holds ? cell : kCell) + " --jobs " +
+                                file("steps.json", jobs.dump()).string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json verdict = outcome.last_line();
+    EXPECT_EQ(verdict["id"], "pick");
+    EXPECT_EQ(verdict["verdict"], steps == holds ? "conflict" : "free") << verdict;
+    if (steps == bare) continue;
+    EXPECT_EQ(verdict["step"], 3);
+    EXPECT_EQ(verdict["earliest_start_s"], 0.0);
+    EXPECT_EQ(verdict["result"]["reason"], "no_plan");
+    EXPECT_NE(verdict["result"]["detail"].get<std::string>().find("table"), std::string::npos);
+  }
+  const json bad = {{{"at", 0}, {"job", {{"steps", {ready, attach}}}}}};
+  const Outcome refused =
+      run("check --cell " + cell + " --jobs " + file("bad.json", bad.dump()).string());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("bad.json:/0/job/steps/1/attach/link"), std::string::npos)
+      << refused.err;
+}
+
 }  // namespace
 }  // namespace armloom

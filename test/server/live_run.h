@@ -109,6 +109,8 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   [[nodiscard]] const Executive& executive() const { return *executive_; }
   std::vector<std::string> log;
   std::size_t planned = 0;  // number of /plan inquiries that found a path
+  // Number of checks of jobs with steps that went on after the first motion.
+  std::size_t further_steps_checked = 0;
 
  private:
   void answer(std::optional<MotionChecker>& checker, const Question& question,
@@ -221,8 +223,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
         return (void)executive_->cancel(some_job(),
                                         now_ + Duration(random_() % 800) * kControlPeriod.count());
       case 26:  // checks and plans are not logged and change nothing, however long they take
-      case 27:
         return executive_->check(request(swing(arm())), [](const auto&) {});
+      case 27:
+        return ask_about_steps();
       case 28:
         return plan();
       case 29:
@@ -241,6 +244,21 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     }
     executive_->plan(std::move(inquiry), std::make_shared<std::atomic<bool>>(false),
                      [this](const auto& outcome) { planned += outcome && *outcome; });
+  }
+
+  void ask_about_steps() {
+    const std::string first = arm(), second = arm();
+    const json ready = {{"named", "ready"}}, home = {{"named", "home"}};
+    JobRequest job = request({{"steps",
+                               {{{"arm", first}, {"move_to", ready}},
+                                {{"gripper", {{"arm", first}, {"width_m", 0.05}}}},
+                                {{"arm", second}, {"move_to", home}},
+                                {{"arm", first}, {"move_to", home}}}}});
+    executive_->plan(StepsInquiry{job, random_()}, std::make_shared<std::atomic<bool>>(false),
+                     [](const auto&) {});
+    executive_->check(std::move(job), [this](const Result<CheckView>& view) {
+      further_steps_checked += view && view->step.value_or(1) > 0;
+    });
   }
 
   std::mt19937_64 random_;

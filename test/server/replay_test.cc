@@ -16,7 +16,7 @@ using test::two_pandas;
 
 TEST(Replay, ReproducesTheSameEvents) {
   const std::vector<std::string> policies{"earliest_start", "coordinated", "certified"};
-  std::size_t inputs = 0, events = 0, planned = 0;
+  std::size_t inputs = 0, events = 0, planned = 0, steps_checked = 0;
   std::map<std::string, int> ended;
   for (std::uint64_t seed = 1; seed <= seed_count(100); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -41,17 +41,19 @@ TEST(Replay, ReproducesTheSameEvents) {
     inputs += run.log.size();
     events += run.events.size();
     planned += run.planned;
+    steps_checked += run.further_steps_checked;
     for (const auto& [state, count] : run.ended) ended[state] += count;
   }
   std::printf(
       "%zu inputs, %zu events, %d jobs succeeded, %d canceled, %d failed, %d expired; %zu ways "
-      "planned beside them\n",
+      "planned and %zu jobs with steps checked beside them\n",
       inputs, events, ended["succeeded"], ended["canceled"], ended["failed"], ended["expired"],
-      planned);
+      planned, steps_checked);
   EXPECT_GT(inputs, 50 * seed_count(100));
   EXPECT_GT(ended["succeeded"], 0);
   EXPECT_GT(ended["canceled"], 0);
   EXPECT_GT(planned, seed_count(100) / 10);
+  EXPECT_GT(steps_checked, seed_count(100) / 10);
 }
 
 TEST(Replay, ReportsWhereItDiverges) {

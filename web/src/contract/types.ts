@@ -274,6 +274,8 @@ export interface components {
             nearest?: number[];
             /** @description Evaluations that planning took */
             evaluations?: number;
+            /** @description If a step of a job cannot be planned: the steps before it */
+            steps?: components["schemas"]["PlannedStep"][];
         };
         /** @description The result of checking a job as if it were submitted now. */
         Verdict: {
@@ -303,13 +305,15 @@ export interface components {
             };
             /** @description For a job with `move_to_start`: duration of the motion to its start. The verdict covers that motion. If the job cannot be admitted together with that motion, it is checked again at its start */
             move_to_start_s?: number;
-            /** @description Result of a job that would end at once without moving */
+            /** @description Result of a job that would end at once without moving. Of a job with steps: its result if it would end before the motion of `step` */
             result?: {
                 reason: components["schemas"]["Reason"];
                 detail: string;
                 /** @description Of a job with steps that did not succeed: index of the step at which it ended */
                 step?: number;
             };
+            /** @description Only of a job with steps that is not `free`: index of the first step that is not. `verdict`, `waits_on`, `conflicts` and `result` are those of this step */
+            step?: number;
         };
         /** @description The motion of a job. */
         JobMotion: {
@@ -833,6 +837,23 @@ export interface components {
             steps: components["schemas"]["TimelineStep"][];
             /** @description Number of jobs of the arm that have not ended and are not in `steps`. They are not admitted yet, so they have no times */
             waiting: number;
+        };
+        /** @description A step of a job that is planned, but not executed. */
+        PlannedStep: {
+            /** @description Display name; may be empty */
+            name: string;
+            /** @description The member that names the step, as in `Step` */
+            kind: string;
+            /** @description What the step does; may be empty */
+            detail: string;
+            /** @description Arms that a motion moves */
+            arms: string[];
+            /** @description Only of a motion: its trajectory in the form of POST /jobs */
+            trajectory?: components["schemas"]["JointTrajectory"];
+            /** @description Only of a motion */
+            duration_s?: number;
+            /** @description Line segments checked by the search */
+            evaluations: number;
         };
         /** @description A trajectory in the form of trajectory_msgs/JointTrajectory. */
         JointTrajectory: {

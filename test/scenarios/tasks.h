@@ -1,17 +1,19 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/collision/state/clearance_query.h"
 #include "core/executive/live_scene.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
+
+// Jobs with steps in the crossing cell, which has a part that the arms can hold.
 
 inline constexpr double kPart_m = 0.03;  // radius
 
@@ -50,9 +52,22 @@ inline JobRequest task(std::string key, std::vector<StepRequest> steps) {
   return request;
 }
 
+// From home; the part is at 0.13.
+inline std::vector<StepRequest> pick_and_place() {
+  return {slide_to("x", 0.0), attach("x_ball"), slide_to("x", 0.5), detach(), slide_to("x", -1.0)};
+}
+// The part is at -0.47. When x ends at -0.25, ball x is 5 cm from ball y at the origin, and the
+// part would be in ball y.
+inline std::vector<StepRequest> into_y(bool holds) {
+  std::vector<StepRequest> steps{slide_to("x", -0.6), slide_to("x", -0.25)};
+  if (holds) steps.insert(steps.begin() + 1, attach("x_ball"));
+  return steps;
+}
+
 // Asserts in every event that the part is at exactly one place.
 struct Tasks : Crossing {
-  explicit Tasks(CellDescription cell = with_io()) : Crossing(cell, "earliest_start") {
+  explicit Tasks(CellDescription cell = with_io(), const std::string& policy = "earliest_start")
+      : Crossing(cell, policy) {
     (void)scene().add(part_at(0.13));
   }
   Executive& executive() { return simulation->executive(); }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/collision/scene/planning_scene.h"
+#include "core/executive/holding.h"
+#include "core/executive/task.h"
+
+namespace armloom {
+
+// What ended steps allowed to touch. It stays allowed until the arms have left the object:
+// otherwise they could not move away.
+class LeftTouch {
+ public:
+  // A step that allowed this has ended. `arms`: of its job.
+  void leave(const std::string& object, const Touch& touch, const std::vector<ArmId>& arms);
+  // Returns the objects that these arms may not have left.
+  [[nodiscard]] std::vector<std::string> of(const std::vector<ArmId>& arms) const;
+  // Returns what the object may touch while the present steps allow `now`. Forgets the ended steps
+  // if their arms can move from where they are without them. `at`: positions of all joints.
+  [[nodiscard]] Touch allowed(const PlanningScenePtr& scene, const Configuration& at,
+                              const std::string& object, Touch now);
+
+ private:
+  struct Left {
+    Touch touch;
+    std::vector<ArmId> arms;
+  };
+  std::map<std::string, Left> left_;  // by object
+};
+
+// A scene in which the steps of a task allow objects to touch.
+struct TouchScene {
+  PlanningScenePtr scene;
+  LeftTouch left = {};
+  // From now on, the step allows `next`. `present`: what it allowed before. `arms`: of the task.
+  void change(TouchOf& present, const TouchOf& next, const std::vector<ArmId>& arms,
+              const Configuration& at);
+  // An action has just changed who carries the object.
+  void carried_or_placed(const std::string& object, TouchOf& present,
+                         const std::vector<ArmId>& arms, const Configuration& at);
+  // These arms have moved.
+  void moved(const std::vector<ArmId>& arms, const TouchOf& present, const Configuration& at);
+
+ private:
+  void show(const std::string& object, const TouchOf& present, const Configuration& at);
+};
+
+}  // namespace armloom
