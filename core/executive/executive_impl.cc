@@ -25,7 +25,8 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
-              .changed = [this](ClearanceQuery& query) { scene_has_changed(query); }}),
+              .changed = [this](ClearanceQuery& query) { scene_has_changed(query); },
+              .now = [this] { return clock_.now; }}),
       signals_(cell_->io, std::move(options.write_signal),
                {.asked =
                     [this](const ExecutiveInput& input) {
@@ -232,7 +233,8 @@ TimePoint Executive::Impl::settled_until() const {
   const bool settled = clock_.quiet && execution_.motions().all_settled() &&
                        execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
-  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_});
+  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_,
+                   scene_.expiry().at});
 }
 
 // ---- What is asked of all arms ----

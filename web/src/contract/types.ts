@@ -994,6 +994,12 @@ export interface components {
             held: components["schemas"]["HeldObject"][];
             /** @description Contact with objects that steps of jobs allow at present; absent if there is none */
             touch?: components["schemas"]["AllowedTouch"][];
+            /** @description Cell time at which the objects of `expiring` are removed; absent if no object expires */
+            expires_s?: number;
+            /** @description Names of the objects that expire; absent if there are none */
+            expiring?: string[];
+            /** @description Names of the objects that have expired with this version; absent if there are none */
+            expired?: string[];
         };
         /** @description An input or output of the cell. */
         Signal: {
