@@ -28,13 +28,10 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
               .changed = [this](ClearanceQuery& query) { scene_has_changed(query); },
               .now = [this] { return clock_.now; }}),
       signals_(cell_->io, std::move(options.write_signal),
-               {.asked =
-                    [this](const ExecutiveInput& input) {
-                      note(input);
-                      return clock_.now;
-                    },
+               {.asked = [this](const ExecutiveInput& input) { return note(input), clock_.now; },
                 .changed = [this](SignalId signal) { signal_changed(signal); },
-                .now = [this] { return clock_.now; }}),
+                .now = [this] { return clock_.now; },
+                .alert = [this](Alert alert) { publisher_.tell(std::move(alert), clock_.now); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {

@@ -187,6 +187,7 @@ PartPtr<IoReport> io_report_part() {
       always("is_up", &IoReport::is_up, flag()),
       always("detail", &IoReport::detail, text()),
       always("values", &IoReport::values, dictionary(signal_value_format())),
+      field("faults", &IoReport::faults, dictionary(text()), "By signal"),
   });
 }
 
