@@ -1020,7 +1020,7 @@ export interface components {
             value: (boolean | number) | null;
             /** @description Value that was sent to the device, until the device reports it */
             commanded?: boolean | number;
-            /** @description false while the server has no connection to the device */
+            /** @description false while the server has no connection to the device, or while the device refuses this signal */
             is_connected: boolean;
             /** @description Why it is not connected */
             detail: string | null;
