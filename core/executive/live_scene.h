@@ -54,7 +54,7 @@ using SceneEdit =
 // object leaves the list when it is set again or attached. Objects of the cell file never expire.
 struct SceneExpiry {
   TimePoint at = TimePoint::max();
-  // Ascending, of objects in the scene; null: none.
+  // Ascending, of objects in the scene; nullptr if there are none.
   std::shared_ptr<const std::vector<std::string>> names = {};
 };
 
@@ -80,7 +80,7 @@ struct PreparedEdit {
     // Names of the objects that are new or changed, ascending.
     std::vector<std::string> changed;
     std::vector<std::string> removed;
-    // Of ObjectsSet: names of the objects that can expire.
+    // Names of the objects that can expire; nullptr unless the edit is ObjectsSet::expires_in.
     std::shared_ptr<const std::vector<std::string>> expiring = {};
   };
   Result<Made> made;

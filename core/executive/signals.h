@@ -68,7 +68,7 @@ class Signals {
                                         TimePoint now);
   void tell_device(const IoReport& report);
   void tell_refusal(const IoReport& report, const std::string& signal, const std::string& why);
-  // What a report says about a signal.
+  // A signal in a report.
   struct Seen {
     std::optional<SignalValue> value;
     bool is_connected;

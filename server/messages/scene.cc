@@ -94,7 +94,7 @@ FormatPtr<SceneRequest> scene_request_format() {
                 ignored<Request>("held", anything("array"),
                                  "Ignored: steps of jobs attach and detach objects"),
                 ignored<Request>("touch", anything("array"), "Ignored, as `held`"),
-                ignored<Request>("expires_s", anything("number"), "Ignored: see `expires_in_s`"),
+                ignored<Request>("expires_s", number(kAnyNumber), "Ignored: see `expires_in_s`"),
                 ignored<Request>("expiring", anything("array"), "Ignored: see `expires_in_s`"),
                 ignored<Request>("expired", anything("array"), "Ignored: see `expires_in_s`"),
                 field("version", &Request::version, count(),

@@ -230,7 +230,7 @@ class Metrics::Impl {
   Family<Gauge>& io_not_connected_ =
       gauges("armloom_io_signals_not_connected",
              "Signals without a connection to their device, or that their device refuses");
-  std::map<std::string, bool> without_connection_;  // by signal; absent: true
+  std::map<std::string, bool> without_connection_;  // by signal; true if missing
   Family<Counter>& waits_ = counters("armloom_job_waits_total", "Jobs that waited, by reason");
   Family<Gauge>& waiting_ = gauges("armloom_jobs", "Jobs that have not ended, by state");
   Gauge& stopped_ = gauges("armloom_stopped", "1 if every arm is stopped").Add({});

@@ -63,7 +63,7 @@ class Watch final : public Observer {
     const std::scoped_lock lock(mutex_);
     return std::exchange(judged_, {});
   }
-  // Of the control cycles since the last call.
+  // Counts the control cycles since the last call.
   struct Figures {
     int overruns = 0;
     Wall::duration longest{};
