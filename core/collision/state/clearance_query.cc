@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/collision/state/objects_below.h"
 #include "core/collision/state/placed_cell.h"
 #include "core/model/kinematics.h"
 
@@ -173,22 +174,6 @@ struct ClearanceQuery::Scratch {
     const auto& [a, b] = bodies.pairs[pair];
     return is_first_link(a) ||
            std::ranges::find(stands_on, std::pair(group.arm, b)) != stands_on.end();
-  }
-
-  // Returns each arm with the objects that its mount may touch.
-  [[nodiscard]] static std::vector<std::pair<ArmId, std::size_t>> objects_below(
-      const PlanningScene::Bodies& bodies) {
-    std::vector<std::pair<ArmId, std::size_t>> found;
-    for (const auto& [link, object] : bodies.cell->allowed.link_objects) {
-      for (std::uint32_t arm = 0; arm < bodies.cell->arms.size(); ++arm) {
-        if (!bodies.cell->is_mount(link, ArmId{arm})) continue;
-        for (std::size_t body = 0; body < bodies.bodies.size(); ++body) {
-          const CollisionBody& of = bodies.bodies[body];
-          if (!of.carrier && of.name == object) found.emplace_back(ArmId{arm}, body);
-        }
-      }
-    }
-    return found;
   }
 
   // Returns true if the body is a link that the first movable joint of its arm moves, and no other.
