@@ -219,6 +219,10 @@ struct SceneView {
   std::shared_ptr<const std::vector<CollisionObject>> shared = {};  // not null if published
   std::vector<HeldView> held = {};
   std::vector<TouchView> touch = {};
+  // When objects expire, and which: both or none.
+  std::optional<TimePoint> expires_at = {};
+  std::shared_ptr<const std::vector<std::string>> expiring = {};
+  std::vector<std::string> expired = {};  // with this version
 
   [[nodiscard]] const std::vector<CollisionObject>& objects() const { return *shared; }
 };

@@ -25,15 +25,13 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
-              .changed = [this](ClearanceQuery& query) { scene_has_changed(query); }}),
+              .changed = [this](ClearanceQuery& query) { scene_has_changed(query); },
+              .now = [this] { return clock_.now; }}),
       signals_(cell_->io, std::move(options.write_signal),
-               {.asked =
-                    [this](const ExecutiveInput& input) {
-                      note(input);
-                      return clock_.now;
-                    },
+               {.asked = [this](const ExecutiveInput& input) { return note(input), clock_.now; },
                 .changed = [this](SignalId signal) { signal_changed(signal); },
-                .now = [this] { return clock_.now; }}),
+                .now = [this] { return clock_.now; },
+                .alert = [this](Alert alert) { publisher_.tell(std::move(alert), clock_.now); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
@@ -232,7 +230,8 @@ TimePoint Executive::Impl::settled_until() const {
   const bool settled = clock_.quiet && execution_.motions().all_settled() &&
                        execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
-  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_});
+  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_,
+                   scene_.expiry().at});
 }
 
 // ---- What is asked of all arms ----

@@ -82,6 +82,8 @@ struct ExecutiveInput {
   using ObjectReplaced = armloom::ObjectReplaced;
   using ObjectRemoved = armloom::ObjectRemoved;
   using ObjectsSet = armloom::ObjectsSet;
+  using ObjectsExpired = armloom::ObjectsExpired;
+  using ExpiryRestored = SceneExpiry;
   using ObjectHeld = HeldView;  // by an arm, when the server starts
   struct Injected {
     FaultRequest fault;
@@ -131,9 +133,9 @@ struct ExecutiveInput {
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
-               ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, ObjectHeld, Injected,
-               FaultRemoved, Alerted, Judged, Certified, Planned, StartWritten, Reported, Connected,
-               SignalSet, IoReported>
+               ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, ObjectsExpired,
+               ExpiryRestored, ObjectHeld, Injected, FaultRemoved, Alerted, Judged, Certified,
+               Planned, StartWritten, Reported, Connected, SignalSet, IoReported>
       what;
 };
 

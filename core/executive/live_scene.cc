@@ -54,6 +54,7 @@ struct Outline {
   Objects objects;
   std::vector<std::string> changed = {};
   std::vector<std::string> removed = {};
+  std::vector<std::string> expiring = {};
 };
 
 Result<Outline> outline(const ObjectAdded& edit, const PlanningScene& base) {
@@ -128,6 +129,24 @@ Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {
     after.objects.push_back(given[i]);
   }
   std::ranges::sort(after.changed);
+  if (!edit.expires_in) return after;
+  for (const auto& [name, place] : index) {
+    if (!of_cell.contains(name)) after.expiring.emplace_back(name);
+  }
+  std::ranges::sort(after.expiring);
+  return after;
+}
+
+Result<Outline> outline(const ObjectsExpired& edit, const PlanningScene& base) {
+  const std::unordered_set<std::string_view> names(edit.names.begin(), edit.names.end());
+  Outline after;
+  for (const CollisionObject& object : base.objects()) {
+    if (names.contains(object.name)) {
+      after.removed.push_back(object.name);
+    } else {
+      after.objects.push_back(object);
+    }
+  }
   return after;
 }
 
@@ -143,8 +162,12 @@ Result<PreparedEdit::Made> make(const SceneEdit& edit, const PlanningScene& base
   auto scene = base.with_objects(std::move(after->objects));
   if (!scene) return failure(std::move(scene.error()));
   auto query = std::make_unique<ClearanceQuery>(StateWatch::query_of(*scene));
+  std::shared_ptr<const std::vector<std::string>> expiring;
+  if (!after->expiring.empty()) {
+    expiring = std::make_shared<const std::vector<std::string>>(std::move(after->expiring));
+  }
   return PreparedEdit::Made{std::move(*scene), std::move(query), std::move(after->changed),
-                            std::move(after->removed)};
+                            std::move(after->removed), std::move(expiring)};
 }
 
 ExecutiveInput input_of(const SceneEdit& edit) {
@@ -205,22 +228,83 @@ std::optional<Problem> LiveScene::object_in_arm(const PreparedEdit& prepared) co
 }
 
 Result<SceneEdited> LiveScene::apply(PreparedEdit& prepared) {
+  if (auto* expired = std::get_if<ObjectsExpired>(&prepared.edit)) {
+    auto due_now = due(told_.now());
+    if (!due_now) return SceneEdited{.version = now_.version, .created = false, .removed = {}};
+    if (due_now->names != expired->names) prepared = prepare(std::move(*due_now), now_.scene);
+  }
   if (prepared.base != now_.scene) prepared = prepare(std::move(prepared.edit), now_.scene);
   told_.asked(input_of(prepared.edit));
   if (!prepared.made) return failure(prepared.made.error());
   if (auto problem = object_in_arm(prepared)) return failure(std::move(*problem));
   std::swap(now_.scene, prepared.made->scene);
   ++now_.version;
+  take_expiry(prepared);
   told_.changed(*prepared.made->query);
   return SceneEdited{now_.version, std::holds_alternative<ObjectAdded>(prepared.edit),
-                     std::move(prepared.made->removed)};
+                     std::move(prepared.made->removed), expiry_};
 }
+
+// ---- Expiry ----
+
+std::optional<ObjectsExpired> LiveScene::due(TimePoint now) const {
+  if (expiry_.names == nullptr || now < expiry_.at) return std::nullopt;
+  return ObjectsExpired{*expiry_.names};
+}
+
+const std::vector<std::string>& LiveScene::expired() const {
+  static const std::vector<std::string> kNone;
+  return version_of_expiry_ == now_.version ? expired_ : kNone;
+}
+
+void LiveScene::take_expiry(const PreparedEdit& prepared) {
+  if (const auto* set = std::get_if<ObjectsSet>(&prepared.edit)) {
+    expiry_ = {};
+    const auto& names = prepared.made->expiring;
+    if (set->expires_in && names) expiry_ = {told_.now() + *set->expires_in, names};
+  } else if (std::holds_alternative<ObjectsExpired>(prepared.edit)) {
+    expiry_ = {};
+    expired_ = prepared.made->removed;
+    version_of_expiry_ = version_of_change_ = now_.version;
+  } else {
+    for (const auto* names : {&prepared.made->changed, &prepared.made->removed}) {
+      for (const std::string& name : *names) never_expires(name);
+    }
+  }
+}
+
+void LiveScene::never_expires(const std::string& name) {
+  if (expiry_.names == nullptr || !std::ranges::binary_search(*expiry_.names, name)) return;
+  std::vector<std::string> names = *expiry_.names;
+  std::erase(names, name);
+  expiry_.names = std::make_shared<const std::vector<std::string>>(std::move(names));
+  if (expiry_.names->empty()) expiry_ = {};
+}
+
+void LiveScene::restore(SceneExpiry expiry) {
+  told_.asked({expiry});
+  std::vector<std::string> names;
+  for (const CollisionObject& object : objects()) {
+    if (expiry.names && std::ranges::binary_search(*expiry.names, object.name)) {
+      names.push_back(object.name);
+    }
+  }
+  std::ranges::sort(names);
+  if (names.empty()) return;
+  expiry_ = {expiry.at, std::make_shared<const std::vector<std::string>>(std::move(names))};
+  ClearanceQuery query = StateWatch::query_of(now_.scene);
+  ++now_.version;
+  told_.changed(query);
+}
+
+// ---- Other changes ----
 
 Result<void> LiveScene::change(PlanningScene::Content content) {
   auto made = now_.scene->with(std::move(content));
   if (!made) return failure(std::move(made.error()));
   ClearanceQuery query = StateWatch::query_of(*made);
   now_.scene = std::move(*made);
+  for (const Attachment& held : now_.scene->attachments()) never_expires(held.object.name);
   version_of_change_ = ++now_.version;
   told_.changed(query);
   return {};

@@ -41,8 +41,22 @@ struct ObjectRemoved {
 // Objects of the cell file that are not named stay as they are. All other objects are removed.
 struct ObjectsSet {
   std::shared_ptr<const std::vector<CollisionObject>> objects;
+  std::optional<Duration> expires_in = {};  // from the swap on; see SceneExpiry
 };
-using SceneEdit = std::variant<ObjectPut, ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet>;
+// Removes objects whose time is over (LiveScene::due). LiveScene::apply() removes what is due then.
+struct ObjectsExpired {
+  std::vector<std::string> names;
+};
+using SceneEdit =
+    std::variant<ObjectPut, ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, ObjectsExpired>;
+
+// Objects that are removed at a time, because their client said so (ObjectsSet::expires_in). An
+// object leaves the list when it is set again or attached. Objects of the cell file never expire.
+struct SceneExpiry {
+  TimePoint at = TimePoint::max();
+  // Ascending, of objects in the scene; nullptr if there are none.
+  std::shared_ptr<const std::vector<std::string>> names = {};
+};
 
 // Largest number of objects that clients can bring a scene to, the cell file's included.
 inline constexpr std::size_t kObjectsMax = 5000;
@@ -52,6 +66,7 @@ struct SceneEdited {
   std::uint64_t version;
   bool created;                      // the object is new
   std::vector<std::string> removed;  // names
+  SceneExpiry expiry = {};           // after the edit
 };
 
 // An edit with the scene that it makes of another scene. LiveScene::apply() leaves here what it
@@ -65,6 +80,8 @@ struct PreparedEdit {
     // Names of the objects that are new or changed, ascending.
     std::vector<std::string> changed;
     std::vector<std::string> removed;
+    // Names of the objects that can expire; nullptr unless the edit is ObjectsSet::expires_in.
+    std::shared_ptr<const std::vector<std::string>> expiring = {};
   };
   Result<Made> made;
 };
@@ -96,6 +113,7 @@ class LiveScene {
     // Called after a change, with the monitor's query in the new scene. Swaps it with the query
     // before.
     std::function<void(ClearanceQuery&)> changed;
+    std::function<TimePoint()> now;
   };
   LiveScene(PlanningScenePtr scene, Measured measured, Told told)
       : now_{std::move(scene)}, measured_(std::move(measured)), told_(std::move(told)) {}
@@ -103,11 +121,17 @@ class LiveScene {
   [[nodiscard]] const VersionedScene& now() const { return now_; }
   [[nodiscard]] const PlanningScenePtr& scene() const { return now_.scene; }
   [[nodiscard]] std::uint64_t version() const { return now_.version; }
-  // Returns the version that the last change() made; zero if there was none.
+  // Returns the version that the last change() or expiry made; zero if there was none.
   [[nodiscard]] std::uint64_t version_of_change() const { return version_of_change_; }
   [[nodiscard]] const std::vector<CollisionObject>& objects() const {
     return now_.scene->objects();
   }
+  [[nodiscard]] const SceneExpiry& expiry() const { return expiry_; }
+  // Returns the edit that removes what has expired by `now`, if there is such a thing. The loop
+  // that calls Executive::tick() applies it.
+  [[nodiscard]] std::optional<ObjectsExpired> due(TimePoint now) const;
+  // Returns the names of the objects that expired with the present version; mostly none.
+  [[nodiscard]] const std::vector<std::string>& expired() const;
 
   // Swaps the scene. Prepares the edit again if the scene has changed since. Problems: those of
   // prepare(); a new or changed object that is closer to the measured position of an arm than the
@@ -121,19 +145,26 @@ class LiveScene {
   // The link carries the object, with its pose in the link's frame. For a restart. Problems: those
   // of PlanningScene::with().
   [[nodiscard]] Result<void> hold(const HeldView& held);
+  // These objects expire, and no others. For a restart. Ignores names that are not in the scene.
+  void restore(SceneExpiry expiry);
 
   // Prepare and apply an edit at once.
   [[nodiscard]] Result<void> add(CollisionObject object);
   [[nodiscard]] Result<void> replace(CollisionObject object);
   [[nodiscard]] Result<void> remove(const std::string& name);
   [[nodiscard]] Result<void> set(std::vector<CollisionObject> objects);
+  [[nodiscard]] Result<void> edit(SceneEdit edit);
 
  private:
-  [[nodiscard]] Result<void> edit(SceneEdit edit);
   [[nodiscard]] std::optional<Problem> object_in_arm(const PreparedEdit& prepared) const;
+  void take_expiry(const PreparedEdit& prepared);
+  void never_expires(const std::string& name);
 
   VersionedScene now_;
   std::uint64_t version_of_change_ = 0;
+  SceneExpiry expiry_;
+  std::vector<std::string> expired_;  // with the version below
+  std::uint64_t version_of_expiry_ = 0;
   Measured measured_;
   Told told_;
 };

@@ -17,6 +17,19 @@ std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& l
   return names;
 }
 
+Alert alert_of_expired(const std::vector<std::string>& names) {
+  constexpr std::size_t kNamed = 5;
+  std::string text = std::to_string(names.size()) +
+                     (names.size() == 1 ? " object has" : " objects have") +
+                     " expired and left the scene: ";
+  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
+  return {Alert::Level::warning,
+          text + "; to keep objects, send PUT /scene before expires_in_s is over"};
+}
+
 }  // namespace
 
 Publisher::Publisher(const Shown& shown, Observer& observer)
@@ -40,6 +53,9 @@ void Publisher::scene_has_changed(TimePoint now) {
   publish_scene();
   scene_is_old_ = true;
   tell_scene(now);
+  if (const auto& names = shown_.scene.expired(); !names.empty()) {
+    tell(alert_of_expired(names), now);
+  }
 }
 
 void Publisher::tell_scene(TimePoint now) {
@@ -69,6 +85,11 @@ SceneView Publisher::scene() const {
   for (const AllowedTouch& allowed : scene->touch()) {
     view.touch.push_back({allowed.object, names_of(shown_.cell, allowed.links)});
   }
+  if (const SceneExpiry& expiry = shown_.scene.expiry(); expiry.names) {
+    view.expires_at = expiry.at;
+    view.expiring = expiry.names;
+  }
+  view.expired = shown_.scene.expired();
   return view;
 }
 

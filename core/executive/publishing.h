@@ -42,7 +42,7 @@ class Publisher {
   void tell(Body body, TimePoint now);
   // Publish the scene: on the board at once. Events of large scenes are published less often, so
   // that one event may cover several changes. What arms hold and what may touch is published at
-  // once, because the audit of a recording relies on its time.
+  // once, because the audit of a recording relies on its time; what has expired, too.
   void scene_has_changed(TimePoint now);
   void tell_scene(TimePoint now);
   void tell_signal(SignalId signal, TimePoint now);

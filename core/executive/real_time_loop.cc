@@ -1,7 +1,5 @@
 #include "core/executive/real_time_loop.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "core/executive/own_checker.h"
+#include "core/executive/scene_edits.h"
 #include "core/executive/status_board.h"
 #include "core/executive/worker.h"
 
@@ -30,10 +29,6 @@ constexpr int kDrawingsMax = 16;
 // And so many plans and checks of clients.
 constexpr int kDraftsMax = 16;
 constexpr int kConsideredMax = 256;
-// Edits of the scene that wait, the one that is being prepared included.
-constexpr std::size_t kEditsMax = 256;
-// If an edit removes so many objects, the memory that the allocator keeps is returned.
-constexpr std::size_t kManyRemoved = 100;
 
 // What comes in has at least so long in a cycle, and at most until the next one is due: what is
 // left waits for the one after.
@@ -90,7 +85,8 @@ class RealTimeLoop::Impl final : public JudgementService {
     // The workers first: they post into the loop's inbox.
     ending_.request_stop();
     for (Looker* looker : {&judge_, &certifier_, &considerer_, &artist_}) looker->worker.end();
-    for (Worker* worker : {&planner_, &drafter_, &scene_maker_}) worker->end();
+    for (Worker* worker : {&planner_, &drafter_}) worker->end();
+    edits_.end();
     if (!loop_.joinable()) return;
     loop_.request_stop();
     loop_.join();
@@ -163,20 +159,11 @@ class RealTimeLoop::Impl final : public JudgementService {
     return true;
   }
 
-  void edit_scene(SceneEdit edit, ObjectsTo objects_to,
-                  std::function<void(const Result<SceneEdited>&)> then) {
-    post([this, edit = std::make_shared<WaitingEdit>(WaitingEdit{
-                    std::move(edit), std::move(objects_to), std::move(then)})](Executive&) {
-      if (edits_.size() >= kEditsMax) {
-        edit->then(failure(Problem{ProblemKind::unavailable, "too-many-edits", "",
-                                   std::to_string(kEditsMax) +
-                                       " changes of the scene wait, the maximum: send them in one "
-                                       "PUT /scene, or wait for each answer",
-                                   static_cast<double>(kEditsMax)}));
-        return true;
-      }
-      edits_.push_back(std::move(*edit));
-      if (edits_.size() == 1) prepare_next();
+  void edit_scene(SceneEdit edit, ObjectsTo objects_to, SceneEdits::Then then) {
+    post([this,
+          edit = std::make_shared<SceneEdits::Waiting>(SceneEdits::Waiting{
+              std::move(edit), std::move(objects_to), std::move(then)})](Executive& executive) {
+      edits_.add(std::move(*edit), executive.scene());
       return true;
     });
   }
@@ -193,43 +180,6 @@ class RealTimeLoop::Impl final : public JudgementService {
   void set_speed(double speed) { speed_ = speed; }
 
  private:
-  struct WaitingEdit {
-    SceneEdit edit;
-    ObjectsTo objects_to;
-    std::function<void(const Result<SceneEdited>&)> then;
-  };
-
-  // Prepares the first waiting edit for the present scene, then applies it on the strand.
-  void prepare_next() {
-    scene_maker_.post([this, edit = std::make_shared<SceneEdit>(std::move(edits_.front().edit)),
-                       base = executive_->scene().scene()]() mutable {
-      auto prepared = std::make_shared<PreparedEdit>(prepare(std::move(*edit), base));
-      base.reset();
-      post([this, prepared](Executive& executive) {
-        apply_first(executive, *prepared);
-        // The worker frees the replaced scene, so that the strand does not wait for it.
-        scene_maker_.post([prepared, count = executive.scene().objects().size()] {
-          const bool many = prepared->made && prepared->made->scene &&
-                            prepared->made->scene->objects().size() >= count + kManyRemoved;
-          prepared->base.reset();
-          prepared->made = failure(Problem{});
-          if (many) malloc_trim(0);
-        });
-        return true;
-      });
-    });
-  }
-
-  void apply_first(Executive& executive, PreparedEdit& prepared) {
-    const WaitingEdit first = std::move(edits_.front());
-    edits_.pop_front();
-    const auto objection =
-        first.objects_to ? first.objects_to(executive.scene().version()) : std::nullopt;
-    first.then(objection ? Result<SceneEdited>(failure(*objection))
-                         : executive.scene().apply(prepared));
-    if (!edits_.empty()) prepare_next();
-  }
-
   struct Command {
     bool is_urgent;
     Task run;
@@ -278,6 +228,7 @@ class RealTimeLoop::Impl final : public JudgementService {
         executive_->tick(cell_now);
         cell_now += kControlPeriod;
       }
+      edits_.add_expiry(executive_->scene(), executive_->now());
     }
   }
 
@@ -319,9 +270,13 @@ class RealTimeLoop::Impl final : public JudgementService {
   Looker artist_;
   Worker planner_;
   Worker drafter_;
-  Worker scene_maker_;
-  std::deque<WaitingEdit> edits_;  // the first is being prepared; the loop thread's
-  struct Open {                    // asked for and not done; the loop thread's
+  SceneEdits edits_{[this](SceneEdits::Apply apply) {
+    post([apply = std::move(apply)](Executive& executive) {
+      apply(executive.scene());
+      return true;
+    });
+  }};
+  struct Open {  // asked for and not done; the loop thread's
     int considered = 0;
     int drawings = 0;
     int drafts = 0;

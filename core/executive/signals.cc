@@ -98,31 +98,60 @@ Result<SignalView> Signals::take(const std::string& name, const SignalValue& val
 void Signals::report(const IoReport& report) {
   const TimePoint now = told_.asked({ExecutiveInput::IoReported{report}});
   if (!write_) return;
+  bool is_known = false;
   for (std::uint32_t s = 0; s < views_.size(); ++s) {
     const SignalId id{s};
+    const std::string& name = views_[s].name;
     if (views_[s].device != report.device || views_[s].device.empty()) continue;
-    const auto read = report.values.find(views_[s].name);
-    std::optional<SignalValue> value;
+    is_known = true;
     if (!report.is_up) {
-      value = io_.signal(id).fail_state;
-    } else if (read != report.values.end() && type_of(read->second) == views_[s].type) {
-      value = read->second;
+      see(id, {io_.signal(id).fail_state, false, report.detail}, now);
+    } else if (const auto fault = report.faults.find(name); fault != report.faults.end()) {
+      see(id, {std::nullopt, false, fault->second}, now);
+      tell_refusal(report, name, fault->second);
+    } else {
+      const auto read = report.values.find(name);
+      const bool fits = read != report.values.end() && type_of(read->second) == views_[s].type;
+      see(id, {fits ? std::optional(read->second) : std::nullopt, true, ""}, now);
     }
-    see(id, value, report, now);
+  }
+  if (is_known) tell_device(report);
+}
+
+void Signals::tell_device(const IoReport& report) {
+  if (report.is_up) {
+    if (lost_.erase(report.device) == 0) return;
+    told_.alert({Alert::Level::info, "I/O device " + report.device + " is connected"});
+  } else if (lost_.insert(report.device).second) {
+    std::erase_if(told_refusals_, [&](const auto& told) {
+      return views_[io_.find_signal(told.first)->index()].device == report.device;
+    });
+    told_.alert({Alert::Level::error, "I/O device " + report.device +
+                                          " is not connected: " + report.detail +
+                                          "; its inputs have no value, and jobs wait for them"});
   }
 }
 
-void Signals::see(SignalId id, std::optional<SignalValue> value, const IoReport& report,
-                  TimePoint now) {
+// A refusal that comes again, as of an output that a step sets again, is told once.
+void Signals::tell_refusal(const IoReport& report, const std::string& signal,
+                           const std::string& why) {
+  std::string& told = told_refusals_[signal];
+  if (told == why) return;
+  told = why;
+  told_.alert({Alert::Level::error, "I/O device " + report.device + " refuses signal " + signal +
+                                        ": " + why + "; check its table, address and value"});
+}
+
+void Signals::see(SignalId id, Seen seen, TimePoint now) {
   SignalView& view = views_[id.index()];
-  const bool is_done = view.commanded && (!report.is_up || view.commanded == value);
-  const bool is_news = is_done || view.value != value || view.is_connected != report.is_up ||
-                       view.detail != report.detail;
+  const bool is_done = view.commanded && (!seen.is_connected || view.commanded == seen.value);
+  const bool is_news = is_done || view.value != seen.value ||
+                       view.is_connected != seen.is_connected || view.detail != seen.detail;
   if (!is_news) return;
-  if (view.value != value) view.changed_at = now;
-  view.value = std::move(value);
-  view.is_connected = report.is_up;
-  view.detail = report.detail;
+  if (view.value != seen.value) view.changed_at = now;
+  view.value = std::move(seen.value);
+  view.is_connected = seen.is_connected;
+  view.detail = std::move(seen.detail);
   if (is_done) view.commanded.reset();
   told_.changed(id);
 }

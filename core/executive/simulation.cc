@@ -117,6 +117,8 @@ void Simulation::pass_over_rest(TimePoint until) {
 void Simulation::tick() {
   executive_->tick(next_);
   judge_->deliver(next_);
+  LiveScene& scene = executive_->scene();
+  if (auto due = scene.due(next_)) (void)scene.edit(std::move(*due));
   next_ += kControlPeriod;
 }
 

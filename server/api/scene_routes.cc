@@ -7,6 +7,7 @@
 #include "server/api/route.h"
 #include "server/http/entity_tag.h"
 #include "server/messages/scene.h"
+#include "server/messages/stored_scene.h"
 
 namespace armloom {
 namespace {
@@ -129,9 +130,15 @@ void set_scene(const ApiParts& parts, const Respond& respond, const ObjectsSet& 
          if (!edited) return respond(refused_edit(edited.error()));
          std::vector<StoredObject> stored;
          if (parts.keeper != nullptr) {
+           const bool expire = edited->expiry.names != nullptr;
+           const std::int64_t expires_ms =
+               expire ? since_1970_ms(parts.keeper->clock().wall_at(edited->expiry.at)) : 0;
            for (std::size_t i = 0; i < all.objects->size(); ++i) {
              const std::string& name = (*all.objects)[i].name;
-             stored.push_back({name, texts[i], is_of_cell(parts, name)});
+             const bool of_cell = is_of_cell(parts, name);
+             stored.push_back(
+                 {name, expire && !of_cell ? text_with_expiry(texts[i], expires_ms) : texts[i],
+                  of_cell});
            }
            for (const std::string& name : edited->removed) stored.push_back({.name = name});
          }
@@ -153,14 +160,15 @@ void put_scene(Call call) {
   read_body(call.parts, call.request, call.respond, read_scene_text,
             [&parts = call.parts, respond = call.respond,
              if_match = call.request.if_match](ReadScene scene) {
-              set_scene(parts, respond, {scene.objects}, std::move(scene.texts),
+              set_scene(parts, respond, {scene.objects, scene.expires_in}, std::move(scene.texts),
                         unless_as_expected(if_match, scene.version));
             });
 }
 
 void delete_objects(Call call) {
   if (const auto refusal = refusal_of(call)) return call.respond(*refusal);
-  set_scene(call.parts, call.respond, {std::make_shared<const std::vector<CollisionObject>>()}, {},
+  set_scene(call.parts, call.respond,
+            {.objects = std::make_shared<const std::vector<CollisionObject>>()}, {},
             unless_as_expected(call.request.if_match, std::nullopt));
 }
 
@@ -199,12 +207,15 @@ std::vector<Route> scene_routes() {
            "One change for thousands of objects, such as those of a camera: all or none. Objects "
            "that clients had added and that are not in the body are removed. Objects of the cell "
            "file stay, unless the body has an object of their name. 409 if an object would "
-           "overlap an arm, if a name is in use, or if `version` is not the scene's.",
+           "overlap an arm, if a name is in use, or if `version` is not the scene's. With "
+           "`padding_m`, all objects are enlarged; with `expires_in_s`, they are removed after "
+           "this time unless they are set again.",
        .parameters = {scene_if_match()},
        .reads = body(scene_request_format(),
                      {{"voxels", R"({"objects": [{"name": "v1", "box": [0.04, 0.04, 0.04], )"
                                  R"("xyz": [0, 0.9, 0.2]}, {"name": "v2", )"
-                                 R"("box": [0.04, 0.04, 0.04], "xyz": [0, 0.9, 0.3]}]})"}}),
+                                 R"("box": [0.04, 0.04, 0.04], "xyz": [0, 0.9, 0.3]}], )"
+                                 R"("padding_m": 0.01, "expires_in_s": 2.5})"}}),
        .outcomes = {with_tag(outcome(200, "The scene is set and all motions are checked against it",
                                      scene_version_format()))},
        .refuses = {400, 409, 412, 422, 507},

@@ -24,11 +24,14 @@ WallClock::Wall WallClock::wall_at(TimePoint time) const {
 }
 
 TimePoint WallClock::time_before(Wall wall) const {
-  constexpr double kLongAgo_s = 9e8;
+  return std::min(time_at(wall), std::min(anchors_.front().time, TimePoint{}));
+}
+
+TimePoint WallClock::time_at(Wall wall) const {
+  constexpr double kLong_s = 9e8;
   const std::chrono::duration<double> since = wall - anchors_.front().wall;
   const double cell_s = since.count() * anchors_.front().speed;
-  return std::min(anchors_.front().time, TimePoint{}) +
-         from_seconds(std::clamp(cell_s, -kLongAgo_s, 0.0));
+  return anchors_.front().time + from_seconds(std::clamp(cell_s, -kLong_s, kLong_s));
 }
 
 std::string WallClock::at(TimePoint time) const { return rfc3339(since_1970_ms(wall_at(time))); }

@@ -37,6 +37,9 @@ class WallClock {
   // Returns the cell time of a wall time before the session. It is negative, or zero if the wall
   // clock was set back.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
+  // Returns the cell time of a wall time, before or after the session's start, if the speed stays
+  // as it was at the start.
+  [[nodiscard]] TimePoint time_at(Wall wall) const;
   // Returns the present speed: cell seconds per wall second.
   [[nodiscard]] double speed() const { return anchors_.back().speed; }
   [[nodiscard]] std::string at(TimePoint time) const;

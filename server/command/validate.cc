@@ -77,6 +77,40 @@ void print_arm(const Cell& cell, const Arm& arm) {
   std::for_each(arm.gripper_joints.begin(), arm.gripper_joints.end(), print);
 }
 
+void print_signal(const SignalDescription& signal) {
+  std::cout << "  " << to_string(signal.direction) << ' ' << signal.name << " ("
+            << to_string(signal.value_type()) << ")";
+  if (!signal.place) {
+    const auto& first = signal.initial;
+    const char* zero = signal.value_type() == SignalType::boolean ? "false" : "0";
+    std::cout << ": " << (first ? text_of(*first) : zero) << " at the start\n";
+    return;
+  }
+  std::cout << ": " << to_string(signal.place->table) << ' ' << signal.place->address;
+  if (signal.fail_state) {
+    std::cout << ", fail state " << text_of(*signal.fail_state);
+  } else if (signal.direction == SignalDirection::output) {
+    std::cout << ", no fail state: the server never writes it by itself";
+  }
+  std::cout << '\n';
+}
+
+void print_io(const IoDescription& io) {
+  for (const IoDeviceDescription& device : io.devices) {
+    std::cout << "I/O device " << device.name << ": Modbus at " << device.endpoint << ", unit "
+              << device.unit << ", read every " << to_seconds(device.poll_period)
+              << " s, lost after " << to_seconds(device.timeout) << " s without an answer\n";
+    for (const SignalDescription& signal : io.signals) {
+      if (signal.place && signal.place->device == device.name) print_signal(signal);
+    }
+  }
+  const auto is_simulated = [](const SignalDescription& signal) { return !signal.place; };
+  if (std::ranges::any_of(io.signals, is_simulated)) std::cout << "simulated signals\n";
+  for (const SignalDescription& signal : io.signals) {
+    if (is_simulated(signal)) print_signal(signal);
+  }
+}
+
 void print_cell(const Cell& cell) {
   std::cout << std::setprecision(6) << "cell " << cell.name << ": " << cell.robots.size()
             << " robots, " << cell.arms.size() << " arms, " << cell.joints.size() << " joints, "
@@ -102,6 +136,7 @@ void print_cell(const Cell& cell) {
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
               << no_minus_zero(p.z()) << '\n';
   }
+  print_io(cell.io);
   std::cout << settings_text(settings_of(cell));
 }
 

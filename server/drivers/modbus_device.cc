@@ -17,8 +17,9 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 
-// Time from the end of a connection to the next attempt.
-constexpr std::chrono::seconds kConnectsAgain{1};
+// Time from the end of a connection to the next attempt, and from a refused value of an output to
+// the next one.
+constexpr std::chrono::seconds kTriesAgain{1};
 // The protocol allows 125 registers in one request, and more bits.
 constexpr int kBlockMax = 120;
 
@@ -78,7 +79,7 @@ void ModbusDevice::run(const std::stop_token& stop) {
     if (stop.stop_requested()) return;
     if (was_up || told != why) report_({device_.name, false, why, {}});
     told = std::move(why);
-    (void)wait(stop, Wall::now() + kConnectsAgain);
+    (void)wait(stop, Wall::now() + kTriesAgain);
   }
 }
 
@@ -87,31 +88,59 @@ std::string ModbusDevice::serve(const std::stop_token& stop) {
   std::string fault;
   const Connection connection = connect(fault);
   if (!connection) return fault;
-  fault = write_fail_states(connection.get());
-  std::optional<std::map<std::string, SignalValue>> told;
+  Session session{connection.get(), blocks_};
+  fault = write_fail_states(session);
+  std::optional<IoReport> told;
   std::deque<Output> outputs;
   while (fault.empty()) {
     for (const Output& output : outputs) {
-      if (fault.empty()) fault = write_out(connection.get(), output);
+      if (fault.empty()) fault = write_out(session, output);
     }
-    std::map<std::string, SignalValue> values;
-    for (const Block& block : blocks_) {
-      if (fault.empty()) fault = read_in(connection.get(), block, values);
-    }
+    IoReport report{device_.name, true};
+    if (fault.empty()) fault = read_all(session, report);
     if (!fault.empty()) break;
-    if (!told || *told != values || !outputs.empty()) {
+    const bool is_news = !told || told->values != report.values || told->faults != report.faults;
+    if (is_news || !outputs.empty()) {
       {
         const std::scoped_lock lock(mutex_);
         is_up_ = true;
       }
-      report_({device_.name, true, "", values});
-      told = std::move(values);
+      report_(report);
+      told = std::move(report);
     }
     outputs =
         wait(stop, Wall::now() + std::chrono::duration_cast<Wall::duration>(device_.poll_period));
-    if (stop.stop_requested()) return write_fail_states(connection.get());
+    if (stop.stop_requested()) return write_fail_states(session);
   }
   return fault;
+}
+
+// A device refuses a block if it refuses one address of it, so that the block is then read address
+// by address.
+std::string ModbusDevice::read_all(Session& session, IoReport& report) const {
+  std::vector<Block>& blocks = session.blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Fault fault = read_in(session.to, blocks[b], report.values);
+    if (fault.text.empty()) continue;
+    if (!fault.is_refused) return fault.text;
+    const Block whole = blocks[b];
+    if (whole.signals.size() == 1) {
+      report.faults.emplace(io_.signal(whole.signals.front()).name, fault.text);
+      continue;
+    }
+    blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
+    for (std::size_t i = whole.signals.size(); i-- > 0;) {
+      blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(b),
+                    {whole.table, whole.first + static_cast<int>(i), {whole.signals[i]}});
+    }
+    --b;  // the first of the new blocks
+  }
+  std::erase_if(session.writes,
+                [now = Wall::now()](const auto& write) { return write.second.until <= now; });
+  for (const auto& [signal, refusal] : session.writes) {
+    report.faults.emplace(io_.signal(signal).name, refusal.text);
+  }
+  return {};
 }
 
 ModbusDevice::Connection ModbusDevice::connect(std::string& fault) const {
@@ -131,27 +160,35 @@ ModbusDevice::Connection ModbusDevice::connect(std::string& fault) const {
   return {nullptr, [](_modbus*) {}};
 }
 
-std::string ModbusDevice::write_out(_modbus* to, const Output& output) const {
+std::string ModbusDevice::write_out(Session& session, const Output& output) const {
   const auto& [signal, value] = output;
   const auto& [name, table, address] = place_of(io_, signal);
   const bool* flag = std::get_if<bool>(&value);
-  const int written = flag != nullptr
-                          ? modbus_write_bit(to, address, *flag ? 1 : 0)
-                          : modbus_write_register(to, address, std::get<std::uint16_t>(value));
-  return written == 1 ? std::string() : fault_at("writing", table, address);
+  const int written =
+      flag != nullptr ? modbus_write_bit(session.to, address, *flag ? 1 : 0)
+                      : modbus_write_register(session.to, address, std::get<std::uint16_t>(value));
+  if (written == 1) {
+    session.writes.erase(signal);
+    return {};
+  }
+  Fault fault = fault_at("writing", table, address);
+  if (!fault.is_refused) return fault.text;
+  session.writes[signal] = {fault.text + " (value " + text_of(value) + ")",
+                            Wall::now() + kTriesAgain};
+  return {};
 }
 
-std::string ModbusDevice::write_fail_states(_modbus* to) const {
+std::string ModbusDevice::write_fail_states(Session& session) const {
   std::string fault;
   for (const SignalId signal : signals_) {
     const auto& value = io_.signal(signal).fail_state;
-    if (value && fault.empty()) fault = write_out(to, {signal, *value});
+    if (value && fault.empty()) fault = write_out(session, {signal, *value});
   }
   return fault;
 }
 
-std::string ModbusDevice::read_in(_modbus* from, const Block& block,
-                                  std::map<std::string, SignalValue>& values) const {
+ModbusDevice::Fault ModbusDevice::read_in(_modbus* from, const Block& block,
+                                          std::map<std::string, SignalValue>& values) const {
   std::array<std::uint8_t, kBlockMax> bits{};
   std::array<std::uint16_t, kBlockMax> registers{};
   const auto size = static_cast<int>(block.signals.size());
@@ -177,14 +214,16 @@ std::string ModbusDevice::read_in(_modbus* from, const Block& block,
   return {};
 }
 
-std::string ModbusDevice::fault_at(const char* doing, ModbusTable table, int address) const {
+ModbusDevice::Fault ModbusDevice::fault_at(const char* doing, ModbusTable table,
+                                           int address) const {
   const int error = errno;
   const std::string place = std::string(doing) + " " + to_string(table) + " " +
                             std::to_string(address) + " of unit " + std::to_string(device_.unit);
   if (error == ETIMEDOUT) {
-    return place + ": no answer within " + text_of(to_seconds(device_.timeout)) + " s";
+    return {place + ": no answer within " + text_of(to_seconds(device_.timeout)) + " s"};
   }
-  return place + ": " + modbus_strerror(error);
+  const bool is_refused = error == EMBXILFUN || error == EMBXILADD || error == EMBXILVAL;
+  return {place + ": " + modbus_strerror(error), is_refused};
 }
 
 // Returns the outputs that are to be written: at once when there are some, else none at `until`.

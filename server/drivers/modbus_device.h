@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -20,7 +21,8 @@ struct _modbus;
 namespace armloom {
 
 // The connection to one Modbus TCP device. A thread of its own connects, writes outputs, reads all
-// signals in each poll period, and connects again after a fault. The public functions are
+// signals in each poll period, and connects again after a fault. If the device refuses an address
+// or a value, only this signal is reported as faulty; the others go on. The public functions are
 // thread-safe.
 class ModbusDevice {
  public:
@@ -44,16 +46,33 @@ class ModbusDevice {
     int first;
     std::vector<SignalId> signals;  // one for each address, from `first` on
   };
+  // Why a request has failed; the text is empty if it has not.
+  struct Fault {
+    std::string text;
+    bool is_refused = false;  // the device answers, but refuses the address, table or value
+  };
+  // A connection, and what the device refused since it was made.
+  struct Session {
+    _modbus* to;
+    std::vector<Block> blocks;
+    struct Refusal {
+      std::string text;
+      std::chrono::steady_clock::time_point until;
+    };
+    std::map<SignalId, Refusal> writes = {};
+  };
 
   static std::vector<Block> blocks_of(const IoDescription& io, IoDeviceId device);
   void run(const std::stop_token& stop);
   std::string serve(const std::stop_token& stop);
   [[nodiscard]] Connection connect(std::string& fault) const;
-  [[nodiscard]] std::string write_out(_modbus* to, const Output& output) const;
-  [[nodiscard]] std::string write_fail_states(_modbus* to) const;
-  [[nodiscard]] std::string read_in(_modbus* from, const Block& block,
-                                    std::map<std::string, SignalValue>& values) const;
-  [[nodiscard]] std::string fault_at(const char* doing, ModbusTable table, int address) const;
+  // These return why the connection must end; else "".
+  [[nodiscard]] std::string write_out(Session& session, const Output& output) const;
+  [[nodiscard]] std::string write_fail_states(Session& session) const;
+  [[nodiscard]] std::string read_all(Session& session, IoReport& report) const;
+  [[nodiscard]] Fault read_in(_modbus* from, const Block& block,
+                              std::map<std::string, SignalValue>& values) const;
+  [[nodiscard]] Fault fault_at(const char* doing, ModbusTable table, int address) const;
   [[nodiscard]] std::deque<Output> wait(const std::stop_token& stop,
                                         std::chrono::steady_clock::time_point until);
 

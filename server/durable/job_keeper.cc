@@ -6,7 +6,7 @@
 #include "server/codec/read_text.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
-#include "server/messages/scene.h"
+#include "server/messages/stored_scene.h"
 
 namespace armloom {
 Result<std::unique_ptr<JobKeeper>> JobKeeper::open(const std::filesystem::path& folder,
@@ -90,6 +90,13 @@ void JobKeeper::change(std::vector<StoredObject> objects,
                        std::function<void(std::optional<Refusal>)> then) {
   store_->change(std::move(objects),
                  [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
+}
+
+void JobKeeper::forget(const std::vector<std::string>& expired) {
+  if (expired.empty()) return;
+  std::vector<StoredObject> gone;
+  for (const std::string& name : expired) gone.push_back({.name = name});
+  store_->change(std::move(gone), [](bool) {});
 }
 
 void JobKeeper::set_speed(std::string arm, SpeedShare speed,

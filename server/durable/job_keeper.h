@@ -52,6 +52,8 @@ class JobKeeper final : public StartLog {
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
   // Persists changes of scene objects, all or none. Calls `then` in the same way as amend().
   void change(std::vector<StoredObject> objects, std::function<void(std::optional<Refusal>)> then);
+  // Deletes objects that have expired. If this fails, they expire again after the next start.
+  void forget(const std::vector<std::string>& expired);
   // Persists the speed override of an arm, or of the cell if `arm` is "". Calls `then` in the same
   // way as amend().
   void set_speed(std::string arm, SpeedShare speed,

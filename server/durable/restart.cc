@@ -17,6 +17,7 @@
 #include "server/messages/job_request.h"
 #include "server/messages/problem.h"
 #include "server/messages/scene.h"
+#include "server/messages/stored_scene.h"
 #include "server/store/stored_object.h"
 
 namespace armloom {
@@ -70,6 +71,24 @@ std::vector<ObjectNotPutBack> put_back(std::vector<LeftObject> objects, LiveScen
     }
   }
   return not_done;
+}
+
+// Takes the time at which objects expire out of their records.
+SceneExpiry take_expiry_of(std::vector<LeftObject>& objects, const WallClock& clock) {
+  SceneExpiry expiry;
+  std::vector<std::string> names;
+  for (LeftObject& left : objects) {
+    if (left.is_damaged || !left.object.text) continue;
+    const auto expires_ms = take_expiry(*left.object.text);
+    if (!expires_ms) continue;
+    names.push_back(left.object.name);
+    expiry.at = clock.time_at(WallClock::Wall(std::chrono::milliseconds(*expires_ms)));
+  }
+  std::ranges::sort(names);
+  if (!names.empty()) {
+    expiry.names = std::make_shared<const std::vector<std::string>>(std::move(names));
+  }
+  return expiry;
 }
 
 // Restores the speed overrides of the previous session. Returns what could not be restored: the
@@ -135,6 +154,7 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
   restart.objects_ = left.objects;
+  restart.expiry_ = take_expiry_of(restart.objects_, keeper.clock());
   restart.speeds_ = left.speeds;
   restart.stopped_arms_ = left.stopped_arms;
   restart.knows_stops_ =
@@ -241,6 +261,7 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     keeper.store().set_speed({.arm = speed.arm}, [](bool) {});
   }
   const auto not_put_back = put_back(objects_, executive.scene());
+  if (expiry_.names) executive.scene().restore(expiry_);
   for (const ObjectNotPutBack& one : not_put_back) {
     executive.alert({Alert::Level::error, one.why});
     // Deletes the change from the store. The alert reports it once; the next session starts without

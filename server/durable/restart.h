@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "core/executive/live_scene.h"
 #include "core/model/cell.h"
 #include "server/durable/job_keeper.h"
 #include "server/store/job_history.h"
@@ -50,6 +51,7 @@ class Restart {
   std::unordered_set<std::string> ids_waiting_;
   std::unordered_set<std::string> ids_written_off_;
   std::vector<LeftObject> objects_;
+  SceneExpiry expiry_;
   std::vector<LeftSpeed> speeds_;
   std::vector<std::string> stopped_arms_;
   bool knows_stops_ = true;

@@ -39,6 +39,8 @@ void Broadcast::on_event(const Event& event) {
     if (parts_.recording != nullptr) parts_.recording->event(*text);
     const auto* job = std::get_if<JobView>(&event->body);
     if (job != nullptr && parts_.keeper != nullptr) parts_.keeper->see(*job);
+    const auto* scene = std::get_if<SceneView>(&event->body);
+    if (scene != nullptr && parts_.keeper != nullptr) parts_.keeper->forget(scene->expired);
     parts_.alerts.happened(*event);
     if (const auto line = line_of(*event)) parts_.log(*line);
     parts_.hub.publish(event->seq, text);

@@ -94,21 +94,83 @@ FormatPtr<SceneRequest> scene_request_format() {
                 ignored<Request>("held", anything("array"),
                                  "Ignored: steps of jobs attach and detach objects"),
                 ignored<Request>("touch", anything("array"), "Ignored, as `held`"),
+                ignored<Request>("expires_s", number(kAnyNumber), "Ignored: see `expires_in_s`"),
+                ignored<Request>("expiring", anything("array"), "Ignored: see `expires_in_s`"),
+                ignored<Request>("expired", anything("array"), "Ignored: see `expires_in_s`"),
                 field("version", &Request::version, count(),
                       "Version that the scene must have, as in GET /scene; 409 if it has another "
                       "version. Default: any version"),
+                omit_default(
+                    "padding_m", &Request::padding_m, 0.0, number(Request::padding_range),
+                    "Distance by which all objects of this request are enlarged, in meters: the "
+                    "sides of a box and the surface and ends of a cylinder or sphere move outward. "
+                    "GET /scene returns the enlarged objects"),
+                field("expires_in_s", &Request::expires_in, seconds(Request::expires_in_range),
+                      "Time after which the objects of this request are removed, in seconds of "
+                      "cell time from the change on, unless they are set again before. Objects of "
+                      "the cell file never expire. Default: never"),
             }));
   return format;
 }
 
+namespace {
+
+constexpr double kEnlargedMax = 1000.0;  // m, as of objects that are requested
+
+struct Enlarge {
+  double padding_m;
+  void operator()(Box& box) const { box.size_m.array() += 2.0 * padding_m; }
+  void operator()(Cylinder& cylinder) const {
+    cylinder.radius_m += padding_m;
+    cylinder.length_m += 2.0 * padding_m;
+  }
+  void operator()(Sphere& sphere) const { sphere.radius_m += padding_m; }
+  void operator()(Mesh&) const { throw std::logic_error("requests have no meshes"); }
+};
+
+// Replaces the shape in the text of an object. Returns its largest length (m).
+struct InText {
+  nlohmann::json& object;
+  double operator()(const Box& box) const {
+    object["box"] = {box.size_m.x(), box.size_m.y(), box.size_m.z()};
+    return box.size_m.maxCoeff();
+  }
+  double operator()(const Cylinder& cylinder) const {
+    object["cylinder"] = {cylinder.radius_m, cylinder.length_m};
+    return std::max(cylinder.radius_m, cylinder.length_m);
+  }
+  double operator()(const Sphere& sphere) const {
+    object["sphere"] = {sphere.radius_m};
+    return sphere.radius_m;
+  }
+  double operator()(const Mesh&) const { throw std::logic_error("requests have no meshes"); }
+};
+
+void enlarge(SceneRequest& request, nlohmann::json& objects, Problems& faults) {
+  if (request.padding_m == 0.0) return;
+  for (std::size_t i = 0; i < request.objects.size(); ++i) {
+    Shape& shape = request.objects[i].shape;
+    std::visit(Enlarge{request.padding_m}, shape);
+    const double largest_m = std::visit(InText{objects[i]}, shape);
+    if (largest_m <= kEnlargedMax) continue;
+    faults.push_back({ProblemKind::invalid, "out-of-range", "/objects/" + std::to_string(i),
+                      "with padding_m, the object has a length of " + std::to_string(largest_m) +
+                          " m, limit 1000 m: make it smaller",
+                      largest_m});
+  }
+}
+
+}  // namespace
+
 Result<ReadScene> read_scene_text(std::string_view text) {
-  const auto body = parse_json(text, JsonComments::refused);
+  auto body = parse_json(text, JsonComments::refused);
   if (!body) return failure(body.error());
   Problems faults;
   SceneRequest request;
   scene_request_format()->read(JsonNode(*body, "", faults), request);
+  if (faults.empty()) enlarge(request, body->at("objects"), faults);
   if (!faults.empty()) return failure(std::move(faults));
-  ReadScene scene{{}, {}, request.version};
+  ReadScene scene{{}, {}, request.version, request.expires_in};
   std::vector<CollisionObject> objects;
   for (ObjectDescription& object : request.objects) {
     objects.push_back({std::move(object.name), object.shape, object.X_WO});
@@ -189,6 +251,7 @@ FormatPtr<HeldView> held_format() {
 
 FormatPtr<SceneView> scene_format() {
   const auto touch = [](const SceneView& view) { return unless_empty(view.touch); };
+  const auto expired = [](const SceneView& view) { return unless_empty(view.expired); };
   static const auto format =
       named("Scene", "",
             object<SceneView>({
@@ -202,6 +265,14 @@ FormatPtr<SceneView> scene_format() {
                 output_if("touch", touch, list(touch_format()),
                           "Contact with objects that steps of jobs allow at present; absent if "
                           "there is none"),
+                output_if("expires_s", &SceneView::expires_at, cell_time(),
+                          "Cell time at which the objects of `expiring` are removed; absent if no "
+                          "object expires"),
+                output_if("expiring", &SceneView::expiring, list(text()),
+                          "Names of the objects that expire; absent if there are none"),
+                output_if("expired", expired, list(text()),
+                          "Names of the objects that have expired with this version; absent if "
+                          "there are none"),
             }));
   return format;
 }
@@ -221,51 +292,6 @@ FormatPtr<std::uint64_t> scene_version_format() {
             object<std::uint64_t>({output_only(
                 "version", [](const std::uint64_t& version) { return version; }, count())}));
   return format;
-}
-
-std::string text_of_place(const HeldView& place) {
-  nlohmann::json record{{"place", {{"link", place.link}}}};
-  std::vector<double> rows;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) rows.push_back(place.object.X_WO(row, column));
-  }
-  record["place"]["pose"] = rows;
-  record["place"]["object"] = nlohmann::json::parse(text_of(*object_format(), place.object));
-  return record.dump();
-}
-
-Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& cell) {
-  const auto record = nlohmann::json::parse(text, nullptr, false);
-  if (!record.is_object() || !record.contains("place")) return std::nullopt;
-  const auto bad = [](const char* why) {
-    return failure(Problem{ProblemKind::malformed, "bad-record", "/place", why, {}});
-  };
-  try {
-    const nlohmann::json& place = record.at("place");
-    const auto rows = place.at("pose").get<std::vector<double>>();
-    nlohmann::json body = place.at("object");
-    HeldView held;
-    held.link = place.at("link").get<std::string>();
-    const std::string name = body.at("name").get<std::string>();
-    if (body.contains("mesh")) {
-      const auto known = std::ranges::find(cell.objects, name, &CollisionObject::name);
-      if (known == cell.objects.end())
-        return bad("the cell file has no mesh of this name any more");
-      held.object = *known;
-    } else {
-      auto read = read_object_text(body.dump(), name);
-      if (!read) return failure(std::move(read.error()));
-      held.object = std::move(*read);
-    }
-    if (rows.size() != 12) return bad("the pose has not 12 numbers");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      held.object.X_WO.matrix()(static_cast<Eigen::Index>(i / 4),
-                                static_cast<Eigen::Index>(i % 4)) = rows[i];
-    }
-    return held;
-  } catch (const nlohmann::json::exception&) {
-    return bad("the record is incomplete");
-  }
 }
 
 }  // namespace armloom

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/number_range.h"
 #include "core/base/problem.h"
+#include "core/base/time.h"
 #include "core/executive/events.h"
 #include "core/model/cell.h"
 #include "server/codec/format.h"
@@ -25,15 +27,24 @@ namespace armloom {
 
 // Body of PUT /scene.
 struct SceneRequest {
+  inline static constexpr NumberRange padding_range{0.0, 10.0};
+  inline static constexpr NumberRange expires_in_range{0.0, 1e6, true};
+
   std::vector<ObjectDescription> objects;
   std::optional<std::uint64_t> version;  // the version that the client expects
+  double padding_m = 0.0;
+  std::optional<Duration> expires_in;
 };
 [[nodiscard]] FormatPtr<SceneRequest> scene_request_format();
 struct ReadScene {
   std::shared_ptr<const std::vector<CollisionObject>> objects;
   std::vector<std::string> texts;  // of the objects, as JSON
   std::optional<std::uint64_t> version;
+  std::optional<Duration> expires_in;
 };
+// The objects and texts include the padding: all sides of a box, and the radius and both ends of a
+// cylinder or sphere, are moved outward by padding_m. The result contains all points that are
+// within padding_m of the shape. Problems: those of the format; an object that becomes too large.
 [[nodiscard]] Result<ReadScene> read_scene_text(std::string_view text);
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
@@ -51,11 +62,5 @@ struct SceneChange {
 };
 [[nodiscard]] FormatPtr<SceneChange> scene_change_format();
 [[nodiscard]] FormatPtr<std::uint64_t> scene_version_format();
-
-// Records of the store: an object where a step of a job has put it.
-[[nodiscard]] std::string text_of_place(const HeldView& place);
-// Returns nullopt if the text is no such record, but a client's object. Problems: a record that
-// cannot be read. The shape of a mesh is taken from the cell's object of that name.
-[[nodiscard]] Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& cell);
 
 }  // namespace armloom

@@ -29,7 +29,8 @@ FormatPtr<SignalView> signal_format() {
               "commanded", [](const View& view) { return view.commanded; }, signal_value_format(),
               "Value that was sent to the device, until the device reports it"),
           output_only("is_connected", &View::is_connected, flag(),
-                      "false while the server has no connection to the device"),
+                      "false while the server has no connection to the device, or while the "
+                      "device refuses this signal"),
           output_only("detail", &View::detail, text_or_null(), "Why it is not connected"),
           output_only("changed_s", &View::changed_at, cell_time(),
                       "Cell time of the last change of the value"),

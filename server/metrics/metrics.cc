@@ -60,6 +60,9 @@ class Metrics::Impl {
     }
     for (const char* what : {"requests", "jobs", "connections"}) limited_.Add({{"what", what}});
     for (const char* state : {"queued", "backlogged", "scheduled", "running"}) at(state);
+    for (const SignalDescription& signal : cell_->io.signals) {  // none is connected yet
+      if (signal.place) io_not_connected_.Add({{"device", signal.place->device}}).Increment();
+    }
   }
 
   Impl(const Impl&) = delete;
@@ -108,6 +111,7 @@ class Metrics::Impl {
       findings_.Add({{"kind", to_string(found->finding.kind)}}).Increment();
     }
     if (std::holds_alternative<GuardEvent>(event.body)) guard_refusals_.Increment();
+    if (const auto* signal = std::get_if<SignalView>(&event.body)) follow(*signal);
     if (const auto* queue = std::get_if<QueueView>(&event.body)) {
       const auto size = [](const std::vector<std::string>& keys) {
         return static_cast<double>(keys.size());
@@ -205,6 +209,14 @@ class Metrics::Impl {
     open_.erase(found);
   }
 
+  void follow(const SignalView& signal) {
+    if (signal.device.empty()) return;
+    bool& before = without_connection_.try_emplace(signal.name, true).first->second;
+    const bool is_without = !signal.is_connected;
+    if (std::exchange(before, is_without) == is_without) return;
+    io_not_connected_.Add({{"device", signal.device}}).Increment(is_without ? 1 : -1);
+  }
+
   struct Open {
     std::chrono::steady_clock::time_point since;
     std::set<Wait::Kind> reasons;
@@ -215,6 +227,10 @@ class Metrics::Impl {
   std::atomic<double> scale_{1.0};
   prometheus::Registry registry_;
   Family<Counter>& jobs_ = counters("armloom_jobs_total", "Ended jobs, by outcome");
+  Family<Gauge>& io_not_connected_ =
+      gauges("armloom_io_signals_not_connected",
+             "Signals without a connection to their device, or that their device refuses");
+  std::map<std::string, bool> without_connection_;  // by signal; true if missing
   Family<Counter>& waits_ = counters("armloom_job_waits_total", "Jobs that waited, by reason");
   Family<Gauge>& waiting_ = gauges("armloom_jobs", "Jobs that have not ended, by state");
   Gauge& stopped_ = gauges("armloom_stopped", "1 if every arm is stopped").Add({});

@@ -128,7 +128,26 @@ PartPtr<In::ObjectsSet> objects_part() {
     for (ListedObject& one : all) objects.push_back(std::move(one.object));
     return std::make_shared<const std::vector<CollisionObject>>(std::move(objects));
   };
-  return always("objects", &In::ObjectsSet::objects, list(listed), "", wrapped, shared);
+  return parts<In::ObjectsSet>(
+      {always("objects", &In::ObjectsSet::objects, list(listed), "", wrapped, shared),
+       member<In::ObjectsSet>(
+           {"expires_in_ns", "", Need::optional, {}}, whole<std::int64_t>(),
+           [](const In::ObjectsSet& in) {
+             return in.expires_in ? std::optional(std::int64_t{in.expires_in->count()})
+                                  : std::nullopt;
+           },
+           [](In::ObjectsSet& in, std::int64_t ns) { in.expires_in = Duration(ns); })});
+}
+
+PartPtr<In::ExpiryRestored> expiry_part() {
+  using Names = std::vector<std::string>;
+  return parts<In::ExpiryRestored>({
+      nanoseconds_part("at_ns", &In::ExpiryRestored::at),
+      always(
+          "objects", &In::ExpiryRestored::names, list(text()), "",
+          [](const std::shared_ptr<const Names>& names) { return names ? *names : Names(); },
+          [](Names names) { return std::make_shared<const Names>(std::move(names)); }),
+  });
 }
 
 PartPtr<Alert> alert_part() {
@@ -168,6 +187,7 @@ PartPtr<IoReport> io_report_part() {
       always("is_up", &IoReport::is_up, flag()),
       always("detail", &IoReport::detail, text()),
       always("values", &IoReport::values, dictionary(signal_value_format())),
+      field("faults", &IoReport::faults, dictionary(text()), "By signal"),
   });
 }
 
@@ -223,6 +243,8 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"replace_object", {object_part<In::ObjectReplaced>()}},
       {"remove_object", {always("object", &In::ObjectRemoved::name, text())}},
       {"set_objects", {objects_part()}},
+      {"expire_objects", {always("objects", &In::ObjectsExpired::names, list(text()))}},
+      {"restore_expiry", {expiry_part()}},
       {"hold_object",
        {object_part<In::ObjectHeld>(), always("link", &In::ObjectHeld::link, text())}},
       {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},

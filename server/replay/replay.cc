@@ -153,7 +153,9 @@ class Replay::Impl final : public InputLog {
   void comes(const In::ObjectAdded& in) { (void)executive().scene().add(in.object); }
   void comes(const In::ObjectReplaced& in) { (void)executive().scene().replace(in.object); }
   void comes(const In::ObjectRemoved& in) { (void)executive().scene().remove(in.name); }
-  void comes(const In::ObjectsSet& in) { (void)executive().scene().set(*in.objects); }
+  void comes(const In::ObjectsSet& in) { (void)executive().scene().edit(in); }
+  void comes(const In::ObjectsExpired& in) { (void)executive().scene().edit(in); }
+  void comes(const In::ExpiryRestored& in) { executive().scene().restore(in); }
   void comes(const In::ObjectHeld& in) { (void)executive().scene().hold(in); }
   void comes(const In::Injected& in) { (void)executive().faults().inject(in.fault); }
   void comes(const In::FaultRemoved& in) { (void)executive().faults().remove(in.fault); }

@@ -11,10 +11,11 @@ namespace {
 struct Waiting : Bench {
   Waiting() : Bench(2) {
     step(SignalChanged{"ready", false, ""}, at(0ms));
-    first = submit({.job = JobId{0},
-                    .trajectory = move({0}, 0, 1, 2s),
-                    .terms = {.start_when = SignalCondition{"ready", true}}},
-                   at(1ms));
+    first =
+        submit({.job = JobId{0},
+                .trajectory = move({0}, 0, 1, 2s),
+                .terms = {.backlog_timeout = 10s, .start_when = SignalCondition{"ready", true}}},
+               at(1ms));
   }
   [[nodiscard]] bool is_dispatched(JobId job) const {
     return std::ranges::any_of(dispatched, [&](const Dispatch& d) { return d.step.job == job; });
@@ -61,6 +62,29 @@ TEST(StartSignal, MayChangeBackUntilTheArmMoves) {
   bench.step(SignalChanged{"ready", false, ""}, at(107ms));
   EXPECT_TRUE(bench.braked.empty()) << "it has started";
   EXPECT_EQ(bench.state(bench.first), JobState::running);
+}
+
+// A queued job has no time limit, whatever it waits for.
+TEST(StartSignal, HasNoTimeLimitWhileTheJobIsQueued) {
+  Waiting bench;
+  bench.step(Wake{}, at(1h));
+  EXPECT_EQ(bench.state(bench.first), JobState::queued);
+  bench.step(SignalChanged{"ready", true, ""}, at(1h + 1s));
+  bench.answer_free(at(1h + 2s));
+  EXPECT_TRUE(bench.is_dispatched(bench.first));
+}
+
+TEST(StartSignal, DoesNotEndTheTimeLimitOfTheBacklog) {
+  Waiting bench;
+  bench.step(SignalChanged{"ready", true, ""}, at(2ms));
+  bench.answer_conflict(at(3ms), Conflict::With::scene);
+  EXPECT_EQ(bench.state(bench.first), JobState::backlogged);
+  bench.step(SignalChanged{"ready", false, ""}, at(4s));
+  bench.step(Wake{}, at(9s));
+  EXPECT_EQ(bench.state(bench.first), JobState::backlogged);
+  EXPECT_EQ(bench.job(bench.first).waits_on.front().kind, Wait::Kind::io);
+  bench.step(Wake{}, at(10s + 3ms));
+  EXPECT_EQ(bench.state(bench.first), JobState::expired);
 }
 
 }  // namespace

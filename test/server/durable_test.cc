@@ -123,6 +123,34 @@ TEST_F(Durable, OperatorsStopSurvivesARestart) {
   EXPECT_EQ(get("/api/v1/arms/right").json()["state"], "idle");
 }
 
+TEST_F(Durable, ObjectsExpireAfterARestart) {
+  start(1);
+  const json objects = {{{"name", "a"}, {"sphere", {0.05}}, {"xyz", {0, 0.9, 0.2}}},
+                        {{"name", "b"}, {"sphere", {0.05}}, {"xyz", {0, 1.1, 0.2}}}};
+  const auto set = [&](double expires_in_s) {
+    const json body{{"objects", objects}, {"expires_in_s", expires_in_s}, {"padding_m", 0.5}};
+    ASSERT_EQ(put("/api/v1/scene", body.dump()).status, 200);
+  };
+  set(1000);
+  const json before = get("/api/v1/scene").json();
+  restart();
+  const json after = get("/api/v1/scene").json();
+  EXPECT_EQ(after["objects"], before["objects"]) << "with the padding";
+  EXPECT_EQ(after["expiring"], json({"a", "b"}));
+  EXPECT_LT(after["expires_s"], before["expires_s"]) << "the time without a server counts";
+  EXPECT_GT(after["expires_s"].get<double>(), 900.0);
+  const auto is_gone = [&] {
+    return get("/api/v1/scene").body.find("\"name\":\"a\"") == std::string::npos;
+  };
+  set(0.3);
+  restart();
+  wait_until(is_gone);
+  restart();
+  EXPECT_TRUE(is_gone());
+  EXPECT_FALSE(get("/api/v1/scene").json().contains("expired")) << "the store has forgotten them";
+  EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
+}
+
 TEST_F(Durable, SpeedOverridesSurviveARestart) {
   on_restart_ = OnRestart::continue_;
   start(1);

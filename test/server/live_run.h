@@ -70,6 +70,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       if (random_() % 100 == 0) act();
       if (batch_ && random_() % 2 == 0 && batch_->go_on()) batch_.reset();
       executive_->tick(now_);
+      if (executive_->scene().due(now_)) {
+        later([this] { (void)executive_->scene().edit(ObjectsExpired{}); });
+      }
       now_ += kControlPeriod;
     }
     executive_->wind_down("the run ends", Executive::Waiting::is_kept, [] {});
@@ -131,6 +134,10 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
 
   void restore() {
     if (random_() % 2 == 0) return;
+    if (executive_->scene().add(object())) {
+      executive_->scene().restore(
+          {TimePoint(300ms), std::make_shared<const std::vector<std::string>>(1, "crate")});
+    }
     std::vector<RestoredJob> jobs;
     jobs.push_back({JobId{1}, request(swing("left")), TimePoint(-3s)});
     jobs.back().request.key = "former";
@@ -199,6 +206,10 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
         return (void)executive_->scene().replace(object());
       case 8:
         return (void)executive_->scene().remove("crate");
+      case 17:
+        return (void)executive_->scene().edit(
+            ObjectsSet{std::make_shared<const std::vector<CollisionObject>>(1, object()),
+                       Duration(random_() % 400) * kControlPeriod.count()});
       case 9:
         return (void)executive_->faults().inject(
             {.arm = arm(), .kind = ArmFault::Kind::slow, .lasting = 300ms, .value = 0.3});

@@ -6,12 +6,14 @@
 import argparse
 import json
 import pathlib
+import re
 import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 from killed_server import API, ROOT, call
 from remote_cell import wait_for
@@ -23,17 +25,20 @@ SIGNALS = [
     ("level", "input", "input_register", 10, None), ("valve", "output", "coil", 0, False),
     ("lamp", "output", "coil", 7, None), ("setpoint", "output", "holding_register", 2, 100)]
 
+WRONG = [("beside", "input", "discrete_input", 63, None), ("wrong_input", "input", "discrete_input", 64, None),
+         ("wrong_output", "output", "coil", 500, False)]
+
 
 class Plant:
-    """A server, and a device that can be started and ended."""
+    """A server, and a device that can be started and ended. `wrong`: signals at addresses that the device does not have."""
 
-    def __init__(self, program, folder, unit=1):
+    def __init__(self, program, folder, unit=1, wrong=()):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.device_port = free.getsockname()[1]
         text = (ROOT / "config/two_pandas.json").read_text().replace('"../models', f'"{ROOT}/models')
         signals = []
-        for name, direction, table, address, fail_state in SIGNALS:
+        for name, direction, table, address, fail_state in (*SIGNALS, *wrong):
             signals.append({"name": name, "direction": direction,
                             "modbus": {"device": "plc", "table": table, "address": address}})
             if fail_state is not None:
@@ -72,6 +77,14 @@ class Plant:
 
     def put(self, name, value):
         return self.call("PUT", f"/io/{name}", {"value": value})
+
+    def alerts(self):
+        return [(a["level"], a["text"]) for a in self.call("GET", "/alerts")[1]["alerts"]]
+
+    def not_connected(self):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/metrics", timeout=30) as answer:
+            text = answer.read().decode()
+        return float(re.search(r'armloom_io_signals_not_connected{device="plc"} (\S+)', text)[1])
 
     def await_up(self):
         wait_for(lambda: self.io("valve")["is_connected"], "a connection to the device")
@@ -147,6 +160,48 @@ def case_survives_the_loss_of_the_device(plant):
     wait_for(lambda: plant.call("GET", "/jobs/closed")[1]["state"] == "succeeded", "the job's end")
 
 
+def case_raises_an_alert_and_a_metric(plant):
+    lost = lambda: sum("I/O device plc is not connected: " in text for _, text in plant.alerts())
+    wait_for(lambda: lost() == 1, "an alert")
+    assert plant.alerts()[0][0] == "error" and plant.not_connected() == len(SIGNALS)
+    plant.start_device()
+    plant.await_up()
+    wait_for(lambda: plant.not_connected() == 0, "all signals")
+    plant.end_device()
+    wait_for(lambda: lost() == 2, "an alert for the second loss")
+    wait_for(lambda: plant.not_connected() == len(SIGNALS), "the metric")
+    time.sleep(2.5)  # two more attempts to connect
+    assert lost() == 2, plant.alerts()
+
+
+def case_goes_on_without_a_signal_that_the_device_refuses(plant):
+    plant.start_device()
+    plant.await_up()
+    wrong = plant.io("wrong_input")
+    assert not wrong["is_connected"] and wrong["value"] is None, wrong
+    assert "reading discrete_input 64 of unit 1: Illegal data address" in wrong["detail"], wrong
+    assert "coil 500 of unit 1: Illegal data address" in plant.io("wrong_output")["detail"]
+    plant.tell("set discrete_input 63 1")  # in one block with the wrong address
+    wait_for(lambda: plant.io("beside")["value"] is True, "the signal beside it")
+    assert plant.put("valve", True)[0] == 200
+    wait_for(lambda: plant.io("valve")["value"] is True, "an open valve")
+    status, problem = plant.put("wrong_output", True)
+    assert status == 503 and "coil 500" in problem["detail"], problem
+    told = lambda name: [text for _, text in plant.alerts() if f"plc refuses signal {name}: " in text]
+    assert len(told("wrong_input")) == len(told("wrong_output")) == 1, plant.alerts()
+    assert plant.not_connected() == 2
+
+    plant.tell("refuse 7")  # the device has the coil, but does not accept a value
+    assert plant.put("lamp", True)[0] == 200
+    wait_for(lambda: "writing coil 7 of unit 1: Illegal data address (value true)" in (plant.io("lamp")["detail"] or ""), "a refusal")
+    assert plant.io("valve")["is_connected"] and len(told("lamp")) == 1
+    plant.tell("refuse 99")
+    wait_for(lambda: plant.io("lamp")["is_connected"], "the lamp to be usable again")
+    assert plant.io("lamp")["value"] is False, "the refused value was written later"
+    assert plant.put("lamp", True)[0] == 200
+    wait_for(lambda: plant.io("lamp")["value"] is True, "a lit lamp")
+
+
 def case_says_that_a_slow_device_is_lost(plant):
     plant.start_device()
     plant.await_up()
@@ -193,7 +248,7 @@ options.program = str(pathlib.Path(options.program).resolve())
 for case in options.only:
     begun = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="armloom-io-") as place:
-        plant = Plant(options.program, pathlib.Path(place))
+        plant = Plant(options.program, pathlib.Path(place), wrong=WRONG if "refuses" in case else ())
         try:
             CASES[case](plant)
             if plant.server.poll() is None:

@@ -3,7 +3,7 @@
 
     modbus_plc.py PORT [--unit 1]
 
-    set TABLE ADDRESS VALUE    get TABLE ADDRESS    delay SECONDS (of each answer)
+    set TABLE ADDRESS VALUE    get TABLE ADDRESS    delay SECONDS (of each answer)    refuse COIL (writes to it)
 """
 import argparse
 import asyncio
@@ -20,6 +20,10 @@ SIZE = 64  # addresses of each table
 
 class Unit(ModbusSlaveContext):
     delay_s = 0.0
+    refused = None  # writes to this coil
+
+    def validate(self, function, address, count=1):
+        return not (function == 5 and address == self.refused) and super().validate(function, address, count)
 
     def getValues(self, *args, **kwargs):
         time.sleep(self.delay_s)
@@ -39,6 +43,9 @@ def obey(unit):
             print("done", flush=True)
         elif words[0] == "get":
             print(int(ModbusSlaveContext.getValues(unit, FUNCTION[words[1]], int(words[2]), 1)[0]), flush=True)
+        elif words[0] == "refuse":
+            unit.refused = int(words[1])
+            print("done", flush=True)
         elif words[0] == "delay":
             unit.delay_s = float(words[1])
             print("done", flush=True)

@@ -16,7 +16,7 @@ using test::two_pandas;
 
 TEST(Replay, ReproducesTheSameEvents) {
   const std::vector<std::string> policies{"earliest_start", "coordinated", "certified"};
-  std::size_t inputs = 0, events = 0, planned = 0, steps_checked = 0;
+  std::size_t inputs = 0, events = 0, planned = 0, steps_checked = 0, expired = 0;
   std::map<std::string, int> ended;
   for (std::uint64_t seed = 1; seed <= seed_count(100); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -40,6 +40,9 @@ TEST(Replay, ReproducesTheSameEvents) {
     EXPECT_EQ(a.min_clearance_m, b.min_clearance_m);
     inputs += run.log.size();
     events += run.events.size();
+    expired += static_cast<std::size_t>(std::ranges::count_if(run.log, [](const std::string& line) {
+      return line.find("\"expire_objects\"") != line.npos;
+    }));
     planned += run.planned;
     steps_checked += run.further_steps_checked;
     for (const auto& [state, count] : run.ended) ended[state] += count;
@@ -50,6 +53,7 @@ TEST(Replay, ReproducesTheSameEvents) {
       inputs, events, ended["succeeded"], ended["canceled"], ended["failed"], ended["expired"],
       planned, steps_checked);
   EXPECT_GT(inputs, 50 * seed_count(100));
+  EXPECT_GT(expired, 0u);
   EXPECT_GT(ended["succeeded"], 0);
   EXPECT_GT(ended["canceled"], 0);
   EXPECT_GT(planned, seed_count(100) / 10);

@@ -109,5 +109,93 @@ TEST_F(SceneVerbs, AllObjectsAreSetAndRemovedAtOnce) {
   EXPECT_EQ(get(scene).json()["objects"].size(), of_cell);
 }
 
+TEST_F(SceneVerbs, PaddingEnlargesAllObjectsOfTheRequest) {
+  start(1.0);
+  const std::string scene = "/api/v1/scene";
+  const json objects = {{{"name", "b"}, {"box", {0.1, 0.2, 0.3}}, {"xyz", {0, 0.9, 0.2}}},
+                        {{"name", "c"}, {"cylinder", {0.05, 0.4}}, {"xyz", {0, 1.2, 0.2}}},
+                        {{"name", "s"}, {"sphere", {0.05}}, {"xyz", {0, 1.5, 0.2}}}};
+  const auto set = put(scene, json{{"objects", objects}, {"padding_m", 0.25}}.dump());
+  ASSERT_EQ(set.status, 200) << set.body;
+  json got = get(scene).json();
+  const auto shape_of = [&](const char* name, const char* shape) {
+    for (const json& object : got["objects"]) {
+      if (object["name"] == name) return object[shape].get<std::vector<double>>();
+    }
+    return std::vector<double>();
+  };
+  EXPECT_EQ(shape_of("b", "box"), (std::vector{0.6, 0.7, 0.8}));
+  EXPECT_EQ(shape_of("c", "cylinder"), (std::vector{0.3, 0.9}));
+  EXPECT_EQ(shape_of("s", "sphere"), (std::vector{0.3}));
+  ASSERT_EQ(put(scene, got.dump()).status, 200);
+  EXPECT_EQ(get(scene).json()["objects"], got["objects"]) << "the padding is applied once";
+
+  expect_refused(put(scene, json{{"objects", objects}, {"padding_m", -0.1}}.dump()), 422,
+                 "/padding_m", -0.1);
+  const json wide = {{{"name", "w"}, {"box", {1000, 1, 1}}, {"xyz", {0, 900, 0}}}};
+  expect_refused(put(scene, json{{"objects", wide}, {"padding_m", 1}}.dump()), 422, "/objects/0",
+                 1002.0);
+  // 5 cm beside the left arm: the padding decides.
+  const json near = {{{"name", "n"}, {"sphere", {0.05}}, {"xyz", {-0.4, 0.35, 0.5}}}};
+  EXPECT_EQ(put(scene, json{{"objects", near}, {"padding_m", 0.3}}.dump()).json()["type"],
+            "urn:armloom:problem:object-in-arm");
+  EXPECT_EQ(put(scene, json{{"objects", near}}.dump()).status, 200);
+}
+
+TEST_F(SceneVerbs, ObjectsExpireUnlessTheyAreSetAgain) {
+  start(1.0);
+  test::Listener listener(port());
+  const std::string scene = "/api/v1/scene";
+  const json of_cell = get(scene).json()["objects"];
+  const auto ball = [](const char* name, double y) {
+    return json{{"name", name}, {"sphere", {0.05}}, {"xyz", {0, y, 0.2}}};
+  };
+  json objects = {ball("a", 0.9), ball("b", 1.1), ball("c", 1.3)};
+  objects.push_back(of_cell.front());
+  const auto pictures = [&](double expires_in_s) {
+    return put(scene, json{{"objects", objects}, {"expires_in_s", expires_in_s}}.dump());
+  };
+  ASSERT_EQ(pictures(1000).status, 200);
+  EXPECT_EQ(get(scene).json()["expiring"], json({"a", "b", "c"})) << "the cell's object stays";
+  const double first = get(scene).json()["expires_s"];
+  EXPECT_GT(first, 900.0);
+  ASSERT_EQ(pictures(2000).status, 200) << "renewed";
+  EXPECT_GE(get(scene).json()["expires_s"].get<double>(), first + 1000.0);
+  ASSERT_EQ(put(scene + "/objects/b", ball("b", 1.15).dump()).status, 200);
+  EXPECT_EQ(get(scene).json()["expiring"], json({"a", "c"})) << "b was set without a time";
+  ASSERT_EQ(put(scene, get(scene).body).status, 200) << "GET's answer can be sent back";
+  EXPECT_FALSE(get(scene).json().contains("expiring"));
+
+  ASSERT_EQ(pictures(0.05).status, 200);
+  json event;
+  do {
+    event = listener.next_of("scene")["data"];
+  } while (!event.contains("expired"));
+  EXPECT_EQ(event["expired"], json({"a", "b", "c"}));
+  EXPECT_EQ(event["objects"].size(), of_cell.size());
+  EXPECT_FALSE(event.contains("expires_s"));
+  const std::string told = listener.next_of("alert")["data"]["text"];
+  EXPECT_NE(told.find("3 objects have expired and left the scene: a, b, c"), told.npos) << told;
+  EXPECT_EQ(get(scene).json()["objects"].size(), of_cell.size());
+}
+
+TEST_F(SceneVerbs, JobBlockedByAnObjectGoesOnWhenTheObjectExpires) {
+  start(1.0);
+  test::Listener listener(port());
+  const json crate = {{{"name", "crate"}, {"box", {0.2, 0.2, 0.2}}, {"xyz", {-0.4, 0.3, 0.6}}}};
+  const auto set = [&](double expires_in_s) {
+    const json body{{"objects", crate}, {"expires_in_s", expires_in_s}};
+    ASSERT_EQ(put("/api/v1/scene", body.dump()).status, 200);
+  };
+  set(1000);
+  ASSERT_EQ(post("/api/v1/jobs", job("turn", test::kHome, test::kAside).dump()).status, 202);
+  const json blocked = next_job(listener, "turn", [](const json& told) {
+    return !told["waits_on"].empty() && told["waits_on"][0]["kind"] == "object";
+  });
+  EXPECT_EQ(blocked["waits_on"][0]["links"][1], "crate") << blocked;
+  set(0.05);
+  until(listener, "turn", "succeeded");
+}
+
 }  // namespace
 }  // namespace armloom

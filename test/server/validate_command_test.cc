@@ -38,6 +38,54 @@ TEST_F(ValidateCommand, PrintsTheEndpointOfARemoteRobot) {
               HasSubstr("; controller remote at tcp:10.0.0.7:4000; when simulated: lag 0"));
 }
 
+json modbus(const std::string& device, const std::string& table, int address) {
+  return {{"device", device}, {"table", table}, {"address", address}};
+}
+
+TEST_F(ValidateCommand, PrintsInputsAndOutputs) {
+  const json plc = {{"name", "plc"}, {"endpoint", "tcp:10.0.0.5:502"}, {"unit", 3}};
+  const json level = {
+      {"name", "level"}, {"direction", "input"}, {"modbus", modbus("plc", "input_register", 10)}};
+  const json valve = {{"name", "valve"},
+                      {"direction", "output"},
+                      {"fail_state", false},
+                      {"modbus", modbus("plc", "coil", 0)}};
+  const json lamp = {
+      {"name", "lamp"}, {"direction", "output"}, {"modbus", modbus("plc", "coil", 7)}};
+  const json lane = {{"name", "lane"}, {"direction", "input"}, {"initial", true}};
+  const fs::path cell =
+      changed_cell("/io", {{"devices", {plc}}, {"signals", {level, lane, valve, lamp}}});
+  const Outcome outcome = run("validate --cell " + cell.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("I/O device plc: Modbus at tcp:10.0.0.5:502, unit 3, read every 0.02 s, "
+                        "lost after 0.5 s without an answer\n"
+                        "  input level (integer): input_register 10\n"
+                        "  output valve (bool): coil 0, fail state false\n"
+                        "  output lamp (bool): coil 7, no fail state: the server never writes it "
+                        "by itself\n"
+                        "simulated signals\n"
+                        "  input lane (bool): true at the start\n"));
+}
+
+TEST_F(ValidateCommand, RefusesTwoDevicesWithOneEndpointAndUnit) {
+  const auto device = [](const char* name, int unit) {
+    return json{{"name", name}, {"endpoint", "tcp:10.0.0.5:502"}, {"unit", unit}};
+  };
+  const auto validated = [&](int unit) {
+    const json devices = {device("a", 1), device("b", unit)};
+    return run("validate --cell " + changed_cell("/io", {{"devices", devices}}).string());
+  };
+  EXPECT_EQ(validated(2).exit_code, 0) << "two units behind one gateway";
+  const Outcome same = validated(1);
+  EXPECT_EQ(same.exit_code, 2);
+  EXPECT_THAT(same.err, HasSubstr("/io/devices/1/endpoint"));
+  EXPECT_THAT(same.err,
+              HasSubstr("I/O device b has the same endpoint and unit (1) as I/O device a: "
+                        "list its signals there, or correct the endpoint or unit"));
+  EXPECT_THAT(same.err, HasSubstr("tcp:10.0.0.5:502"));
+}
+
 TEST_F(ValidateCommand, PrintsWhatEachPromiseCosts) {
   const fs::path cell = changed_cell("/robots/0/controller",
                                      {{"tracking_error_rad", 0.01}, {"feedback_timeout_s", 1}});

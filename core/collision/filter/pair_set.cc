@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -54,22 +55,15 @@ void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
   }
 }
 
-// Returns the pair, or where it would be in the group.
-PairId pair_of(const PlanningScene::Bodies& bodies, const PairGroup& group, const BodyPair& pair) {
-  const auto key = [](const BodyPair& p) { return std::pair(p.a, p.b); };
-  const auto begin = bodies.pairs.begin();
-  const auto found = std::ranges::lower_bound(
-      begin + static_cast<std::ptrdiff_t>(group.pairs_begin),
-      begin + static_cast<std::ptrdiff_t>(group.pairs_end), key(pair), {}, key);
-  return PairId{static_cast<std::uint32_t>(found - begin)};
-}
+// A body of the first side that is not compared with a box.
+constexpr PairId kNoPair{std::numeric_limits<std::uint32_t>::max()};
 
 // Appends the body's capsules to `boxed`.
 void add_boxed(PairSet& set, const ArmKinematics& arm, std::size_t body) {
   const KinematicBody& own = arm.bodies()[body];
   for (int c = own.capsules_begin; c < own.capsules_end; ++c) {
     set.boxed.push_back({c, c, arm.capsules()[static_cast<std::size_t>(c)].radius_up});
-    set.body_of_boxed.push_back({static_cast<int>(body), own.body});
+    set.body_of_boxed.push_back(static_cast<int>(body));
   }
 }
 
@@ -94,29 +88,23 @@ class AddBoxes {
     all_ = static_cast<int>(set.boxed.size());
   }
 
-  // `bodies_of_a`: the number of bodies of a that are compared with the box.
+  // `pairs`: for each body of a the pair with the box, or kNoPair.
   void add(const NarrowBox& narrow, const ConvexShape& box, double margin_m,
-           std::size_t bodies_of_a) {
+           const std::vector<PairId>& pairs) {
     const KinematicBody& body_b = b_.bodies()[static_cast<std::size_t>(narrow.body_b)];
     filter::StaticBox entry = static_box(box, body_b.X_FP * box.X_PS, margin_m);
     entry.end = all_;
-    if (bodies_of_a < a_.bodies().size()) {
+    if (std::ranges::find(pairs, kNoPair) != pairs.end()) {
       entry.begin = static_cast<int>(set_.boxed.size());
-      const PairGroup& group = set_.bodies->groups[narrow.group];
-      for (std::size_t body = 0; body < a_.bodies().size(); ++body) {
-        const std::size_t index = a_.bodies()[body].body;
-        const PairId pair = pair_of(*set_.bodies, group, {index, body_b.body});
-        if (pair.index() < group.pairs_end && set_.bodies->pairs[pair.index()].a == index &&
-            set_.bodies->pairs[pair.index()].b == body_b.body) {
-          add_boxed(set_, a_, body);
-        }
+      for (std::size_t body = 0; body < pairs.size(); ++body) {
+        if (pairs[body] != kNoPair) add_boxed(set_, a_, body);
       }
       entry.end = static_cast<int>(set_.boxed.size());
     }
     entry.limit_up = round_up(narrow.limit_m);
     set_.boxes.push_back(entry);
     set_.narrow_boxes.push_back(narrow);
-    set_.body_of_box.push_back(body_b.body);
+    set_.pairs_of_boxes.insert(set_.pairs_of_boxes.end(), pairs.begin(), pairs.end());
   }
 
  private:
@@ -177,10 +165,9 @@ std::size_t PairSet::box_hits_max() const {
 
 NarrowPair PairSet::narrow_of(int box, int boxed_capsule) const {
   const NarrowBox& of = narrow_boxes[static_cast<std::size_t>(box)];
-  const BoxedBody& a = body_of_boxed[static_cast<std::size_t>(boxed_capsule)];
-  const PairId pair = pair_of(*bodies, bodies->groups[of.group],
-                              {a.body, body_of_box[static_cast<std::size_t>(box)]});
-  return {pair, a.body_a, of.body_b, of.limit_m};
+  const int body_a = body_of_boxed[static_cast<std::size_t>(boxed_capsule)];
+  const std::size_t row = static_cast<std::size_t>(box) * bodies_of_first;
+  return {pairs_of_boxes[row + static_cast<std::size_t>(body_a)], body_a, of.body_b, of.limit_m};
 }
 
 void PairSet::set_limits(const PairLimits& limits) {
@@ -206,8 +193,8 @@ void PairSet::set_each_limit(const std::function<double(const NarrowPair&)>& lim
     for (int c = whole.begin, end = c; c < whole.end; c = end) {
       const double limit = limit_m(narrow_of(static_cast<int>(i), c));
       for (end = c + 1; end < whole.end; ++end) {
-        const bool is_same_body = body_of_boxed[static_cast<std::size_t>(end)].body ==
-                                  body_of_boxed[static_cast<std::size_t>(end) - 1].body;
+        const bool is_same_body = body_of_boxed[static_cast<std::size_t>(end)] ==
+                                  body_of_boxed[static_cast<std::size_t>(end) - 1];
         if (!is_same_body && limit_m(narrow_of(static_cast<int>(i), end)) != limit) break;
       }
       std::size_t entry = i;
@@ -215,7 +202,9 @@ void PairSet::set_each_limit(const std::function<double(const NarrowPair&)>& lim
         entry = boxes.size();
         boxes.push_back(whole);
         narrow_boxes.push_back(narrow_boxes[i]);
-        body_of_box.push_back(body_of_box[i]);
+        for (std::size_t body = 0; body < bodies_of_first; ++body) {
+          pairs_of_boxes.push_back(pairs_of_boxes[i * bodies_of_first + body]);
+        }
       }
       boxes[entry].begin = c;
       boxes[entry].end = end;
@@ -255,6 +244,7 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
   double margin_m = 0.0;
   PairSet set;
   set.bodies = &bodies;
+  set.bodies_of_first = a.bodies().size();
   const std::vector<int> index_in_a = indices_of(a.bodies(), bodies.bodies.size());
   const std::vector<int> index_in_b = indices_of(b.bodies(), bodies.bodies.size());
   std::optional<AddBoxes> add_boxes;
@@ -262,14 +252,15 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
     const PairGroup& group = bodies.groups[g];
     if (group.arm != *a.arm() || group.other != (self ? std::nullopt : b.arm())) continue;
     const double limit_m = limit_of(bodies, group);
-    std::vector<std::size_t> boxed(bodies.bodies.size());  // by body: pairs of this box
+    std::vector<std::vector<PairId>> boxed(bodies.bodies.size());  // by body: of this box
     for (std::size_t i = group.pairs_begin; i < group.pairs_end; ++i) {
       const BodyPair& pair = bodies.pairs[i];
       const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_in_a[pair.a],
                               index_in_b[pair.b], limit_m};
       if (narrow.body_b < 0) continue;  // a group of another kind: body b is not in `b`
       if (!b.arm() && bodies.bodies[pair.b].lone_box) {
-        ++boxed[pair.b];
+        boxed[pair.b].resize(a.bodies().size(), kNoPair);
+        boxed[pair.b][static_cast<std::size_t>(narrow.body_a)] = narrow.pair;
         continue;
       }
       const KinematicBody& body_a = a.bodies()[static_cast<std::size_t>(narrow.body_a)];
@@ -280,7 +271,7 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
       add_capsules(set, narrow, {body_a, a.capsules()}, {body_b, b.capsules()}, of_pair_m);
     }
     for (std::size_t body = 0; body < boxed.size(); ++body) {
-      if (boxed[body] == 0) continue;
+      if (boxed[body].empty()) continue;
       if (!add_boxes) add_boxes.emplace(set, a, b);
       const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(index_in_b[body])];
       const double extent_m = std::max(a.extent_m(), extent_of(body_b, b));

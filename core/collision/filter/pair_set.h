@@ -36,16 +36,14 @@ struct PairSet {
   std::vector<filter::StaticBox> boxes;
   std::vector<NarrowBox> narrow_boxes;
   std::vector<filter::BoxedCapsule> boxed;
-  struct BoxedBody {
-    int body_a;        // index in ArmKinematics::bodies() of the first side
-    std::size_t body;  // index in PlanningScene::Bodies::bodies
-  };
-  std::vector<BoxedBody> body_of_boxed;  // by entry of `boxed`
-  std::vector<std::size_t> body_of_box;  // by entry of `boxes`, as in BoxedBody::body
-  std::vector<filter::Group> groups;     // `pairs`, grouped by a capsule of one side
-  bool groups_of_second = false;         // that side is the second
-  std::vector<filter::Group> others;     // see filter::Groups::others
-  float limit_up = 0.0F;                 // largest limit of `pairs`
+  std::vector<int> body_of_boxed;  // by entry of `boxed`: as NarrowPair::body_a
+  // A row for each entry of `boxes`: by NarrowPair::body_a, the pair with the box.
+  std::vector<PairId> pairs_of_boxes;
+  std::size_t bodies_of_first = 0;    // length of a row
+  std::vector<filter::Group> groups;  // `pairs`, grouped by a capsule of one side
+  bool groups_of_second = false;      // that side is the second
+  std::vector<filter::Group> others;  // see filter::Groups::others
+  float limit_up = 0.0F;              // largest limit of `pairs`
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
   // Returns the largest number of hits that the filter can find.

@@ -1,9 +1,11 @@
 #include "core/collision/state/clearance_query.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/collision/state/objects_below.h"
 #include "core/collision/state/placed_cell.h"
 #include "core/model/kinematics.h"
 
@@ -12,6 +14,10 @@ namespace {
 
 // A pair of an arm with its mount counts as near below this multiple of the required clearance.
 constexpr double kNear = 3.0;
+
+constexpr auto kAnyDistance = [](const PairGroup&, std::size_t) {
+  return std::numeric_limits<double>::infinity();
+};
 
 bool includes(const PairGroup& group, const std::vector<bool>& arms) {
   return arms[group.arm.index()] || (group.other && arms[group.other->index()]);
@@ -98,18 +104,32 @@ struct ClearanceQuery::Scratch {
 
   // ---- One state ----
 
+  // Returns true if some pairs of the comparison are of this group.
+  [[nodiscard]] bool compares(const PlacedCell::Comparison& c, const PairGroup& group) const {
+    if (group.arm.index() != c.a) return false;
+    if (group.other) return group.other->index() == c.b;
+    return c.b == (group.kind == PairGroup::Kind::self ? c.a : bodies.cell->arms.size());
+  }
+
   // Writes to `candidates` the pairs that the filter leaves undecided, if `wanted` selects their
-  // group. Sorted by pair, each pair once.
-  template <class Wanted>
-  void find_candidates(const Configuration& q, const Wanted& wanted) {
+  // group, and may_count(group, pair) returns a distance (m) above their lower bound. Sorted by
+  // pair, each pair once.
+  template <class Wanted, class MayCount>
+  void find_candidates(const Configuration& q, const Wanted& wanted, const MayCount& may_count) {
     const Configuration* const state[] = {&q};
     forward_kinematics(*bodies.cell, q, X_WL);
     placed.place(state);
     candidates.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
+      const bool is_wanted = std::ranges::any_of(bodies.groups, [&](const PairGroup& group) {
+        return compares(c, group) && wanted(group);
+      });
+      if (!is_wanted) continue;
       placed.filter(c, 1U, [&](const filter::Hit& hit, const NarrowPair& narrow) {
-        if (!wanted(bodies.group_of(narrow.pair))) return;
-        candidates.push_back({static_cast<double>(hit.distance[0]), narrow.pair.index()});
+        const PairGroup& group = bodies.group_of(narrow.pair);
+        const auto least_m = static_cast<double>(hit.distance[0]);
+        if (!wanted(group) || least_m >= may_count(group, narrow.pair.index())) return;
+        candidates.push_back({least_m, narrow.pair.index()});
       });
     }
     std::ranges::sort(candidates, {},
@@ -154,22 +174,6 @@ struct ClearanceQuery::Scratch {
     const auto& [a, b] = bodies.pairs[pair];
     return is_first_link(a) ||
            std::ranges::find(stands_on, std::pair(group.arm, b)) != stands_on.end();
-  }
-
-  // Returns each arm with the objects that its mount may touch.
-  [[nodiscard]] static std::vector<std::pair<ArmId, std::size_t>> objects_below(
-      const PlanningScene::Bodies& bodies) {
-    std::vector<std::pair<ArmId, std::size_t>> found;
-    for (const auto& [link, object] : bodies.cell->allowed.link_objects) {
-      for (std::uint32_t arm = 0; arm < bodies.cell->arms.size(); ++arm) {
-        if (!bodies.cell->is_mount(link, ArmId{arm})) continue;
-        for (std::size_t body = 0; body < bodies.bodies.size(); ++body) {
-          const CollisionBody& of = bodies.bodies[body];
-          if (!of.carrier && of.name == object) found.emplace_back(ArmId{arm}, body);
-        }
-      }
-    }
-    return found;
   }
 
   // Returns true if the body is a link that the first movable joint of its arm moves, and no other.
@@ -217,7 +221,9 @@ struct ClearanceQuery::Scratch {
     };
     if (std::ranges::none_of(bodies.groups, is_missing)) return true;
     placed.set_limits({horizon_m, 0.0, horizon_m});
-    find_candidates(q, is_missing);
+    find_candidates(q, is_missing, [&](const PairGroup& group, std::size_t pair) {
+      return limit_of(group, pair, horizon_m);
+    });
     for (const PairGroup& group : bodies.groups) {
       if (!is_missing(group)) continue;
       auto& own = found[counterpart[static_cast<std::size_t>(&group - bodies.groups.data())]];
@@ -269,7 +275,8 @@ void ClearanceQuery::near_pairs(const Configuration& q, const std::vector<bool>&
                                 const std::vector<bool>& moved, std::vector<NearPair>& near) {
   near.clear();
   scratch_->find_candidates(
-      q, [&](const PairGroup& group) { return includes(group, of) && includes(group, moved); });
+      q, [&](const PairGroup& group) { return includes(group, of) && includes(group, moved); },
+      kAnyDistance);
   for (const auto& [least_m, pair] : scratch_->candidates) {
     const PairId id{static_cast<std::uint32_t>(pair)};
     const double limit_m = scratch_->bodies.group_of(id).limit_m(scratch_->placed.limits());
@@ -292,7 +299,8 @@ bool ClearanceQuery::looks_at(PairId pair, const std::vector<bool>& of,
 }
 
 std::vector<Proximity> ClearanceQuery::closest_too_close(const Configuration& q) {
-  scratch_->find_candidates(q, [](const PairGroup&) { return true; });
+  scratch_->find_candidates(
+      q, [](const PairGroup&) { return true; }, kAnyDistance);
   std::vector<Proximity> found;
   for (const PairGroup& group : scratch_->bodies.groups) {
     const double limit_m = group.limit_m(scratch_->placed.limits());

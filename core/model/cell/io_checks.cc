@@ -24,6 +24,15 @@ class IoCheck {
                                  " must be tcp:HOST:PORT; Modbus devices listen on port 502",
                              device.endpoint);
       }
+      const auto [first, is_new] =
+          device_places_.emplace(std::pair(device.endpoint, device.unit), device.name);
+      if (!is_new) {
+        diagnostics_.in_cell("duplicate-endpoint", pointer + "/endpoint",
+                             "I/O device " + device.name + " has the same endpoint and unit (" +
+                                 std::to_string(device.unit) + ") as I/O device " + first->second +
+                                 ": list its signals there, or correct the endpoint or unit",
+                             device.endpoint);
+      }
     }
   }
 
@@ -93,6 +102,7 @@ class IoCheck {
   const IoDescription& io_;
   Diagnostics& diagnostics_;
   std::set<std::string> device_names_;
+  std::map<std::pair<std::string, int>, std::string> device_places_;  // endpoint and unit
   std::set<std::string> signal_names_;
   std::map<std::tuple<std::string, ModbusTable, int>, std::string> places_;
 };

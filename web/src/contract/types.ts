@@ -1015,6 +1015,12 @@ export interface components {
             held: components["schemas"]["HeldObject"][];
             /** @description Contact with objects that steps of jobs allow at present; absent if there is none */
             touch?: components["schemas"]["AllowedTouch"][];
+            /** @description Cell time at which the objects of `expiring` are removed; absent if no object expires */
+            expires_s?: number;
+            /** @description Names of the objects that expire; absent if there are none */
+            expiring?: string[];
+            /** @description Names of the objects that have expired with this version; absent if there are none */
+            expired?: string[];
         };
         /** @description An input or output of the cell. */
         Signal: {
@@ -1035,7 +1041,7 @@ export interface components {
             value: (boolean | number) | null;
             /** @description Value that was sent to the device, until the device reports it */
             commanded?: boolean | number;
-            /** @description false while the server has no connection to the device */
+            /** @description false while the server has no connection to the device, or while the device refuses this signal */
             is_connected: boolean;
             /** @description Why it is not connected */
             detail: string | null;
