@@ -24,8 +24,8 @@ struct Planned {
   TrajectoryPtr trajectory = nullptr;        // null if it ends without a motion, ...
   std::optional<JobResultView> result = {};  // ... because of this
   std::vector<std::size_t> after = {};       // indices of those that have to succeed first
-  // Of a job with steps: the index of the motion, or of the step that cannot be done; the actions
-  // before it; and what may touch during it.
+  // For a job with steps: the index of the motion, or of the step that cannot be done; the actions
+  // before it; what may touch during it.
   std::optional<std::size_t> step = {};
   std::vector<StepRequest> actions = {};
   TouchOf touch = {};

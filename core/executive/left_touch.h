@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// What ended steps allowed to touch. It stays allowed until the arms have left the object:
-// otherwise they could not move away.
+// Keeps what ended steps allowed to touch until the arms have left the object: otherwise they could
+// not move away.
 class LeftTouch {
  public:
   // A step that allowed this has ended. `arms`: of its job.

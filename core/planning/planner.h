@@ -52,8 +52,8 @@ struct PlanRefusal {
 // Asks for a path of one arm to any of several goals, while everything else rests.
 struct PlanRequest {
   ArmId arm;
-  // Of the whole cell. The arm's own joints are the start; a path begins inside their limits if they
-  // exceed these by at most Execution::start_tolerance_rad.
+  // The positions of all joints. The arm's own joints are the start; a path begins inside their
+  // limits if they exceed these by at most Execution::start_tolerance_rad.
   Configuration at;
   std::vector<Eigen::VectorXd> goals;  // at least one; a row for each joint of the arm
   std::vector<ArmId> left_out = {};    // other arms that are ignored

@@ -36,7 +36,7 @@ std::vector<TrajectoryRequest*> own_motions_of(JobRequest& request) {
   return motions;
 }
 
-// Those of steps included.
+// Returns all trajectories of the job, also of its steps.
 std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
   std::vector<TrajectoryRequest*> motions = own_motions_of(request);
   for (StepRequest& step : request.steps) {

@@ -24,7 +24,7 @@ class StepsOverHttp : public RunningServer {
     const json part = {{"box", {0.04, 0.04, 0.08}}, {"xyz", {-0.1, 0.35, 0.141}}};
     ASSERT_EQ(put("/api/v1/scene/objects/part", part.dump()).status, 201);
   }
-  // A pick and place of the part. `touch`: what it may touch when it is put down.
+  // Returns a job that picks the part and places it. `touch`: of the detach step.
   static json pick(const json& touch) {
     const json named = {{"move_to", {{"named", "ready"}}}};
     const json attach = {
