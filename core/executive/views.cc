@@ -66,6 +66,11 @@ std::string opens(const Proximity& proximity, const Cell& cell) {
 
 // "a -> b -> a: each waits for the next one, so none can move", and how to avoid it.
 std::string deadlock_text(const std::vector<std::string>& cycle, const Cell& cell) {
+  if (cycle.size() == 1) {
+    return "motions of " + cycle.front() +
+           " wait for each other, so none can move: change its steps " +
+           "so that each arm leaves before another one comes, or " + to_send_aside("an arm");
+  }
   std::string text;
   for (const std::string& key : cycle) text += key + " -> ";
   text += cycle.front() + ": each waits for the next one, so none can move; submit a job before " +
@@ -199,6 +204,10 @@ std::vector<std::string> ring_of(const Step& step, const JobNames& names) {
     const std::string key = names.key(on_it);
     cycle.push_back(key.empty() ? "this job" : key);  // that is only asked about
   }
+  // Motions of one job are told as one.
+  const auto same = std::ranges::unique(cycle);
+  cycle.erase(same.begin(), same.end());
+  if (cycle.size() > 1 && cycle.back() == cycle.front()) cycle.pop_back();
   return cycle;
 }
 

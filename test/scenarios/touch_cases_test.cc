@@ -56,6 +56,7 @@ TEST(Task, EndsIfItsMotionsWaitForEachOther) {
   EXPECT_TRUE(is_terminal(job.state)) << job.detail();
   EXPECT_NE(job.state, JobState::succeeded);
   EXPECT_THAT(job.detail(), HasSubstr("of 5"));
+  EXPECT_THAT(job.detail(), HasSubstr("motions of crossed wait for each other"));
 }
 
 // The first job should have given the part to y, and failed.
