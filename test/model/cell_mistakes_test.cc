@@ -213,8 +213,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         MISTAKE(output(cell); cell.io.devices[0].endpoint = "unix:/tmp/plc",
                               "/io/devices/0/endpoint", "must be tcp:HOST:PORT"),
-        MISTAKE(output(cell); cell.io.devices.push_back(cell.io.devices[0]), "/io/devices/1/name",
-                              "the name plc of an I/O device is already taken"),
+        MISTAKE(output(cell); cell.io.devices.push_back(cell.io.devices[0]);
+                cell.io.devices.back().unit = 2, "/io/devices/1/name",
+                "the name plc of an I/O device is already taken"),
         MISTAKE(output(cell).place->device = "plx", "/io/signals/0/modbus/device",
                 "there is no I/O device plx in /io/devices; did you mean plc?"),
         MISTAKE(output(cell).place->table = ModbusTable::input_register,
