@@ -109,6 +109,7 @@ class Executive::Impl {
   void enter_task(PreparedJob prepared, JobId id, JobLabel label, bool is_held_over);
   void go_on_with_tasks();
   bool go_on(Task& task);
+  [[nodiscard]] const Step* lost_motion(const Task& task) const;
   void tell_stop(Task& task, JobId next);
   bool go_on_with_motion(Task& task, TaskStep& present);
   Result<bool> act(Task& task, const StepRequest& request);

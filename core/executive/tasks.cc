@@ -110,13 +110,13 @@ bool Executive::Impl::go_on(Task& task) {
     return true;
   }
   TaskStep& present = task.steps[task.at];
-  if (present.job) return go_on_with_motion(task, present);
-  const auto next = task.next_motion();
-  if (next && scheduler_.find(*next)->has_ended()) {  // it cannot follow any more: a deadlock
-    const Step& motion = *scheduler_.find(*next);
-    end_task(task, end_of(task, motion, view_of(motion, *cell_, jobs_), clock_.now));
+  const Step* lost = lost_motion(task);
+  if (lost != nullptr && !(present.job && scheduler_.find(*present.job)->has_authority())) {
+    end_task(task, end_of(task, *lost, view_of(*lost, *cell_, jobs_), clock_.now));
     return true;
   }
+  if (present.job) return go_on_with_motion(task, present);
+  const auto next = task.next_motion();
   if (next && !scheduler_.has_turn_for_actions(*next)) {
     tell_stop(task, *next);
     return false;
@@ -142,6 +142,16 @@ bool Executive::Impl::go_on(Task& task) {
   task.since.reset();
   ++task.at;
   return true;
+}
+
+// Returns the first motion to come that has ended without success: it was in a deadlock.
+const Step* Executive::Impl::lost_motion(const Task& task) const {
+  for (std::size_t i = task.at + 1; i < task.steps.size(); ++i) {
+    const auto& motion = task.steps[i].job;
+    const Step* step = motion ? scheduler_.find(*motion) : nullptr;
+    if (step != nullptr && step->has_ended() && step->state() != JobState::succeeded) return step;
+  }
+  return nullptr;
 }
 
 // Publishes that the task waits for a resume, if an arm of its next motion is stopped.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +22,16 @@ constexpr Duration kReacts = 2s;         // of the operator
 constexpr Duration kWaits = 5s;          // for an arm in which the fault can begin
 constexpr Duration kRemovesAfter = 15s;  // a fault that stops no arm
 constexpr Duration kPatience = 3600s;    // after the last job
+
+// An arm that moves by itself while it does not report or does not stop.
+bool cannot_be_stopped(const std::set<ArmFault::Kind>& kinds) {
+  using Kind = ArmFault::Kind;
+  const auto any_of = [&](std::initializer_list<Kind> some) {
+    return std::ranges::any_of(some, [&](Kind kind) { return kinds.contains(kind); });
+  };
+  return any_of({Kind::drift, Kind::runaway}) &&
+         any_of({Kind::ignore_stop, Kind::cut, Kind::drop_feedback, Kind::freeze_feedback});
+}
 
 std::string text_of_steps(const JobView& job) {
   std::string text;
@@ -162,7 +175,12 @@ class FaultRun {
     if (arms.empty()) arms.push_back(jobs_->arms().front().name);
     const std::string arm = arms[random_.index(arms.size())];
     next_fault_ = nullptr;
-    if (fault.may_touch) touching_.emplace_back(now(), TimePoint::max());
+    for (const FaultRequest& request : fault.faults) kinds_[arm].insert(request.kind);
+    const ArmView view = executive().arms()[cell_->find_arm(arm)->index()];
+    if (view.link != ArmLink::State::up) kinds_[arm].insert(ArmFault::Kind::cut);  // after a fault
+    if (fault.may_touch || cannot_be_stopped(kinds_[arm])) {
+      touching_.emplace_back(now(), TimePoint::max());
+    }
     witness_->faulty.insert(arm);
     if (plan_.verbose) {
       std::fprintf(stderr, "%9.3f s  fault in %s: %s\n", to_seconds(now().time_since_epoch()),
@@ -196,6 +214,7 @@ class FaultRun {
         (void)executive().faults().remove(id);
       }
       for (auto& [begin, end] : touching_) end = std::min(end, now());
+      kinds_.clear();
       removes_at_ = TimePoint::max();
     }
     if (!acts) return;
@@ -212,7 +231,8 @@ class FaultRun {
   std::optional<RandomTasks> tasks_;
   TimePoint next_job_{}, begins_at_{}, removes_at_ = TimePoint::max();
   std::optional<TimePoint> stopped_since_;
-  std::vector<std::uint64_t> present_;  // faults
+  std::vector<std::uint64_t> present_;                     // faults
+  std::map<std::string, std::set<ArmFault::Kind>> kinds_;  // of present faults, by arm
   std::vector<std::pair<TimePoint, TimePoint>>
       touching_;  // when faults that may touch were present
   const ListedFault* next_fault_ = nullptr;

@@ -53,8 +53,8 @@ TEST(Task, EndsIfItsMotionsWaitForEachOther) {
   cell.submit(request);
   while (!cell.executive().all_ended() && cell.simulation->now() < at(60s)) cell.simulation->tick();
   const JobView job = cell.job("crossed");
-  EXPECT_EQ(job.reason(), Reason::backlog_timeout) << job.detail();
-  EXPECT_THAT(job.detail(), HasSubstr("step 3 of 5"));
+  EXPECT_EQ(job.reason(), Reason::deadlock) << job.detail();
+  EXPECT_THAT(job.detail(), HasSubstr("motions of crossed wait for each other"));
 }
 
 // The first job should have given the part to y, and failed.
