@@ -85,6 +85,28 @@ TEST(LongRun, NoJobWaitsAtTheEnd) {
   }
 }
 
+// Jobs with steps under random faults, or none (odd seeds).
+TEST(LongRun, LosesNoPartAndEndsAllJobsWithSteps) {
+  std::size_t succeeded = 0, jobs = 0;
+  for (std::uint64_t seed = 1; seed <= 14; ++seed) {
+    const std::vector<std::string> policies{"coordinated", "earliest_start", "certified",
+                                            "reservation", "lockstep",       "sequential"};
+    const FaultRunResult result = run_with_faults({.seed = seed,
+                                                   .policy = policies[seed % policies.size()],
+                                                   .faulty = seed % 2 == 0,
+                                                   .tasks = true,
+                                                   .jobs_for = std::chrono::minutes(6),
+                                                   .open_max = 40});
+    EXPECT_TRUE(result.lost.empty()) << seed;
+    EXPECT_TRUE(!result.contact || result.may_touch) << seed;
+    EXPECT_EQ(result.waiting, 0U) << seed;
+    EXPECT_TRUE(result.silent.empty()) << seed << ": " << result.silent.front();
+    jobs += result.jobs, succeeded += result.succeeded;
+  }
+  EXPECT_GT(jobs, 2000U);
+  EXPECT_GT(succeeded, 500U);
+}
+
 TEST(FaultRun, StopsNoArmForNoiseAndLagWithinThePromises) {
   const FaultRunResult result = run_with_faults({.seed = 7,
                                                  .policy = "earliest_start",
@@ -96,11 +118,14 @@ TEST(FaultRun, StopsNoArmForNoiseAndLagWithinThePromises) {
 }
 
 TEST(FaultRun, RepeatsForASeed) {
-  FaultRunPlan plan{.seed = 3, .policy = "certified", .fault = &listed("loss 0.5")};
-  const std::uint64_t once = run_with_faults(plan).fingerprint;
-  EXPECT_EQ(run_with_faults(plan).fingerprint, once);
-  plan.seed = 4;
-  EXPECT_NE(run_with_faults(plan).fingerprint, once);
+  for (const bool tasks : {false, true}) {
+    FaultRunPlan plan{
+        .seed = 3, .policy = "certified", .fault = &listed("loss 0.5"), .tasks = tasks};
+    const std::uint64_t once = run_with_faults(plan).fingerprint;
+    EXPECT_EQ(run_with_faults(plan).fingerprint, once);
+    plan.seed = 4;
+    EXPECT_NE(run_with_faults(plan).fingerprint, once);
+  }
 }
 
 }  // namespace
