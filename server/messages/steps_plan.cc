@@ -51,11 +51,6 @@ class PlanBodyFormat final : public CustomFormat<PlanBody> {
   FormatPtr<StepsInquiry> steps_ = steps_inquiry_format();
 };
 
-std::optional<Duration> duration_of(const StepPlan& plan) {
-  const TrajectoryPtr& motion = plan.step.motion;
-  return motion ? std::optional(motion->duration()) : std::nullopt;
-}
-
 Duration duration_of(const StepsPlanAnswer& answer) {
   Duration all{};
   for (const StepPlan& step : answer.steps) all += duration_of(step).value_or(Duration{});
@@ -86,35 +81,6 @@ FormatPtr<PlanBody> plan_body_format() {
 
 Result<PlanBody> read_plan_body_text(std::string_view text) {
   return read_text(*plan_body_format(), text);
-}
-
-FormatPtr<StepPlan> step_plan_format() {
-  using Plan = StepPlan;
-  static const auto format =
-      named("PlannedStep", "A step of a job that is planned, but not executed.",
-            object<Plan>({
-                output_only(
-                    "name", [](const Plan& plan) { return plan.step.name; }, text(),
-                    "Display name; may be empty"),
-                output_only(
-                    "kind", [](const Plan& plan) { return plan.step.kind; }, text(),
-                    "The member that names the step, as in `Step`"),
-                output_only(
-                    "detail", [](const Plan& plan) { return plan.step.detail; }, text(),
-                    "What the step does; may be empty"),
-                output_only(
-                    "arms", [](const Plan& plan) { return plan.step.arms; }, list(text()),
-                    "Arms that a motion moves"),
-                output_if("trajectory", &Plan::trajectory, told_trajectory_format(),
-                          "Only of a motion: its trajectory in the form of POST /jobs"),
-                output_if(
-                    "duration_s", [](const Plan& plan) { return duration_of(plan); },
-                    seconds(kPositive), "Only of a motion"),
-                output_only(
-                    "evaluations", [](const Plan& plan) { return plan.step.evaluations; }, count(),
-                    "Line segments checked by the search"),
-            }));
-  return format;
 }
 
 FormatPtr<StepsPlanAnswer> steps_plan_format() {

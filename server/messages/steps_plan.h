@@ -22,7 +22,8 @@ struct StepPlan {
   PlannedStep step;
   std::optional<TrajectoryRequest> trajectory = {};
 };
-[[nodiscard]] FormatPtr<StepPlan> step_plan_format();
+[[nodiscard]] FormatPtr<StepPlan> step_plan_format();                     // step_plan.cc
+[[nodiscard]] std::optional<Duration> duration_of(const StepPlan& plan);  // of a motion
 
 // Answer to POST /plan for a job with steps that can all be planned.
 struct StepsPlanAnswer {
