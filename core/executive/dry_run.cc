@@ -101,7 +101,7 @@ class SceneInTime {
   explicit SceneInTime(PlanningScenePtr scene) : scene_{std::move(scene)} {}
 
   // The motion begins, after its actions. `at`: the positions of all joints. Problems: those of
-  // after_action().
+  // TouchScene::act().
   [[nodiscard]] Result<PlanningScenePtr> begin(const Planned& motion, const Configuration& at) {
     for (auto& [job, hands] : hands_) {
       if (hands.until <= motion.starts && job != motion.job) touch(hands, {}, at);
@@ -112,12 +112,8 @@ class SceneInTime {
     Hands& own = hands_[motion.job];
     own.arms.insert(own.arms.end(), arms.begin(), arms.end());
     for (const StepRequest& action : motion.actions) {
-      auto scene = after_action(scene_.scene, at, action);
-      if (!scene) return failure(std::move(scene.error()));
-      scene_.scene = *std::move(scene);
-      if (const auto object = object_of(action)) {
-        scene_.carried_or_placed(*object, own.touch, own.arms, at);
-      }
+      auto done = scene_.act(action, own.touch, own.arms, at);
+      if (!done) return failure(std::move(done.error()));
     }
     touch(own, motion.touch, at);
     own.until = motion.ends();
@@ -125,7 +121,7 @@ class SceneInTime {
   }
 
  private:
-  // What the present motion of a job with steps lets objects touch.
+  // The contact that the present motion of a job with steps allows.
   struct Hands {
     TouchOf touch = {};
     std::vector<ArmId> arms = {};

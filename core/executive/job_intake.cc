@@ -84,9 +84,9 @@ std::size_t PreparedJob::bytes() const {
   return bytes;
 }
 
-std::vector<ArmId> PreparedJob::arms_of_steps() const {
+std::vector<ArmId> arms_of(const std::vector<PreparedJob::PreparedStep>& steps) {
   std::set<ArmId> arms;
-  for (const PreparedStep& step : steps) {
+  for (const PreparedJob::PreparedStep& step : steps) {
     if (!step.motion) continue;
     const std::vector<ArmId>& moved = step.motion->alternatives.front()->arms();
     arms.insert(moved.begin(), moved.end());

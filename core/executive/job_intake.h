@@ -33,9 +33,10 @@ struct PreparedJob {
   std::vector<std::string> after;
 
   [[nodiscard]] std::size_t bytes() const;
-  // Returns the arms that the motions of a task move, ascending.
-  [[nodiscard]] std::vector<ArmId> arms_of_steps() const;
 };
+
+// Returns the arms that the motions of a task move, ascending.
+[[nodiscard]] std::vector<ArmId> arms_of(const std::vector<PreparedJob::PreparedStep>& steps);
 
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
 

@@ -1,7 +1,6 @@
 #include "core/executive/left_touch.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "core/collision/check/line_checker.h"
@@ -9,18 +8,41 @@
 
 namespace armloom {
 
-void LeftTouch::leave(const std::string& object, const Touch& touch,
-                      const std::vector<ArmId>& arms) {
-  Left& left = left_[object];
-  left.touch.add(touch);
-  left.arms.insert(left.arms.end(), arms.begin(), arms.end());
+namespace {
+
+// Returns the content after an `attach` or `detach`.
+Result<PlanningScene::Content> after(const PlanningScene& scene, const Configuration& at,
+                                     const StepRequest& step) {
+  const Cell& cell = scene.cell();
+  if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
+    return attached(scene, at, attach->object, *cell.find_link(attach->link),
+                    touch_of(cell, attach->touch));
+  }
+  return detached(scene, at, std::get<DetachRequest>(step.what).object);
+}
+
+}  // namespace
+
+std::set<std::string> LeftTouch::change(TouchOf& present, const TouchOf& next,
+                                        const std::vector<ArmId>& arms) {
+  std::set<std::string> changed;
+  for (const auto& [object, touch] : std::exchange(present, next)) {
+    const auto same = next.find(object);
+    if (same != next.end() && same->second == touch) continue;
+    changed.insert(object);
+    Left& left = left_[object];
+    left.touch.add(touch);
+    left.arms.insert(arms.begin(), arms.end());
+  }
+  for (const auto& [object, touch] : next) changed.insert(object);
+  return changed;
 }
 
 std::vector<std::string> LeftTouch::of(const std::vector<ArmId>& arms) const {
   std::vector<std::string> objects;
   for (const auto& [object, left] : left_) {
-    const bool is_theirs = std::ranges::find_first_of(left.arms, arms) != left.arms.end();
-    if (is_theirs) objects.push_back(object);
+    const auto is_left = [&of = left.arms](ArmId arm) { return of.contains(arm); };
+    if (std::ranges::any_of(arms, is_left)) objects.push_back(object);
   }
   return objects;
 }
@@ -48,22 +70,24 @@ Touch LeftTouch::allowed(const PlanningScenePtr& scene, const Configuration& at,
 
 void TouchScene::change(TouchOf& present, const TouchOf& next, const std::vector<ArmId>& arms,
                         const Configuration& at) {
-  std::set<std::string> changed;
-  for (const auto& [object, touch] : std::exchange(present, next)) {
-    const auto same = next.find(object);
-    if (same != next.end() && same->second == touch) continue;
-    changed.insert(object);
-    left.leave(object, touch, arms);
-  }
-  for (const auto& [object, touch] : next) changed.insert(object);
-  for (const std::string& object : changed) show(object, present, at);
+  for (const std::string& object : left.change(present, next, arms)) show(object, present, at);
 }
 
-void TouchScene::carried_or_placed(const std::string& object, TouchOf& present,
-                                   const std::vector<ArmId>& arms, const Configuration& at) {
+Result<void> TouchScene::act(const StepRequest& step, TouchOf& present,
+                             const std::vector<ArmId>& arms, const Configuration& at) {
+  const auto* attach = std::get_if<AttachRequest>(&step.what);
+  const auto* detach = std::get_if<DetachRequest>(&step.what);
+  if (attach == nullptr && detach == nullptr) return {};
+  auto content = after(*scene, at, step);
+  if (!content) return failure(std::move(content.error()));
+  auto made = scene->with(*std::move(content));
+  if (!made) return failure(std::move(made.error()));
+  scene = *std::move(made);
+  const std::string& object = attach != nullptr ? attach->object : detach->object;
   TouchOf next = present;
   next[object] = touch_in(*scene, object);
   change(present, next, arms, at);
+  return {};
 }
 
 void TouchScene::moved(const std::vector<ArmId>& arms, const TouchOf& present,

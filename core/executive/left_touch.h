@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "core/base/problem.h"
 #include "core/collision/scene/planning_scene.h"
 #include "core/executive/holding.h"
 #include "core/executive/task.h"
@@ -14,8 +16,10 @@ namespace armloom {
 // not move away.
 class LeftTouch {
  public:
-  // A step that allowed this has ended. `arms`: of its job.
-  void leave(const std::string& object, const Touch& touch, const std::vector<ArmId>& arms);
+  // Changes what the present steps of a task allow to touch; keeps what they no longer allow.
+  // `arms`: of the task. Returns the objects with a change.
+  std::set<std::string> change(TouchOf& present, const TouchOf& next,
+                               const std::vector<ArmId>& arms);
   // Returns the objects that these arms may not have left.
   [[nodiscard]] std::vector<std::string> of(const std::vector<ArmId>& arms) const;
   // Returns what the object may touch while the present steps allow `now`. Forgets the ended steps
@@ -26,7 +30,7 @@ class LeftTouch {
  private:
   struct Left {
     Touch touch;
-    std::vector<ArmId> arms;
+    std::set<ArmId> arms;
   };
   std::map<std::string, Left> left_;  // by object
 };
@@ -38,9 +42,10 @@ struct TouchScene {
   // From now on, the step allows `next`. `present`: what it allowed before. `arms`: of the task.
   void change(TouchOf& present, const TouchOf& next, const std::vector<ArmId>& arms,
               const Configuration& at);
-  // An action has just changed who carries the object.
-  void carried_or_placed(const std::string& object, TouchOf& present,
-                         const std::vector<ArmId>& arms, const Configuration& at);
+  // Does an action: `attach` and `detach` change the scene, others do not. Problems: those of
+  // attached() and detached().
+  [[nodiscard]] Result<void> act(const StepRequest& step, TouchOf& present,
+                                 const std::vector<ArmId>& arms, const Configuration& at);
   // These arms have moved.
   void moved(const std::vector<ArmId>& arms, const TouchOf& present, const Configuration& at);
 

@@ -1,6 +1,5 @@
 // The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
 #include <algorithm>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -126,15 +125,7 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
 
 // Sets what the task allows to touch.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
-  const std::vector<ArmId> arms = arms_of(task);
-  std::set<std::string> changed;
-  for (const auto& [object, touch] : std::exchange(task.touch, next)) {
-    const auto same = next.find(object);
-    if (same != next.end() && same->second == touch) continue;
-    changed.insert(object);
-    touch_left_.leave(object, touch, arms);
-  }
-  for (const auto& [object, touch] : next) changed.insert(object);
+  const auto changed = touch_left_.change(task.touch, next, arms_of(task));
   for (const std::string& object : changed) show_touch(object);
 }
 

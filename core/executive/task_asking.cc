@@ -81,7 +81,7 @@ void Executive::Impl::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<boo
   const Configuration at = ahead.rest;
   auto prepared = intake_.prepare(inquiry.job, ahead);
   if (!prepared) return done(failure(std::move(prepared.error())));
-  std::vector<ArmId> arms = prepared->arms_of_steps();
+  std::vector<ArmId> arms = armloom::arms_of(prepared->steps);
   plan_next(std::make_shared<OpenStepsPlan>(
       OpenStepsPlan{std::move(inquiry),
                     TaskPreview(std::move(prepared->steps), {scene_.scene(), touch_left_}, at),
@@ -152,7 +152,7 @@ struct Executive::Impl::OpenStepsCheck {
 void Executive::Impl::check_steps(PreparedJob job, Configuration at,
                                   std::function<void(Result<CheckView>)> done) {
   TaskPreview preview(job.steps, {scene_.scene(), touch_left_}, std::move(at));
-  std::vector<ArmId> arms = job.arms_of_steps();
+  std::vector<ArmId> arms = armloom::arms_of(job.steps);
   CheckView view{.scene_version = scene_.version()};
   check_next(std::make_shared<OpenStepsCheck>(OpenStepsCheck{
       std::move(job), std::move(preview), std::move(arms), std::move(done), std::move(view)}));

@@ -10,38 +10,12 @@
 
 namespace armloom {
 
-Result<PlanningScenePtr> after_action(const PlanningScenePtr& scene, const Configuration& at,
-                                      const StepRequest& step) {
-  const Cell& cell = scene->cell();
-  if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
-    auto content = attached(*scene, at, attach->object, *cell.find_link(attach->link),
-                            touch_of(cell, attach->touch));
-    if (!content) return failure(std::move(content.error()));
-    return scene->with(*std::move(content));
-  }
-  if (const auto* detach = std::get_if<DetachRequest>(&step.what)) {
-    auto content = detached(*scene, at, detach->object);
-    if (!content) return failure(std::move(content.error()));
-    return scene->with(*std::move(content));
-  }
-  return scene;
-}
-
-std::optional<std::string> object_of(const StepRequest& step) {
-  if (const auto* attach = std::get_if<AttachRequest>(&step.what)) return attach->object;
-  if (const auto* detach = std::get_if<DetachRequest>(&step.what)) return detach->object;
-  return std::nullopt;
-}
-
 TaskPreview::TaskPreview(std::vector<PreparedJob::PreparedStep> steps, TouchScene scene,
                          Configuration at)
-    : steps_(std::move(steps)), scene_(std::move(scene)), at_(std::move(at)) {
-  for (const PreparedJob::PreparedStep& step : steps_) {
-    if (!step.motion) continue;
-    const auto& moved = step.motion->alternatives.front()->arms();
-    arms_.insert(arms_.end(), moved.begin(), moved.end());
-  }
-}
+    : steps_(std::move(steps)),
+      scene_(std::move(scene)),
+      at_(std::move(at)),
+      arms_(arms_of(steps_)) {}
 
 Result<bool> TaskPreview::go_on() {
   for (; index_ < steps_.size(); ++index_) {
@@ -51,12 +25,8 @@ Result<bool> TaskPreview::go_on() {
         return true;
       else
         add_below(place_of_step(index_), std::move(begun.error()), problems);
-    } else if (auto scene = after_action(scene_.scene, at_, steps_[index_].step.request)) {
-      scene_.scene = *std::move(scene);
-      const auto object = object_of(steps_[index_].step.request);
-      if (object) scene_.carried_or_placed(*object, touch_, arms_, at_);
-    } else {
-      add_below(place_of_step(index_), std::move(scene.error()), problems);
+    } else if (auto done = scene_.act(steps_[index_].step.request, touch_, arms_, at_); !done) {
+      add_below(place_of_step(index_), std::move(done.error()), problems);
     }
     if (!problems.empty()) return failure(std::move(problems));
   }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/base/problem.h"
@@ -12,14 +10,6 @@
 #include "core/executive/task.h"
 
 namespace armloom {
-
-// Returns the scene after the step, if the joints are then at `at` (rad, m): changed by `attach`
-// and `detach`, else the same. Problems: those of attached() and detached().
-[[nodiscard]] Result<PlanningScenePtr> after_action(const PlanningScenePtr& scene,
-                                                    const Configuration& at,
-                                                    const StepRequest& step);
-// Returns the object that the step attaches or detaches.
-[[nodiscard]] std::optional<std::string> object_of(const StepRequest& step);
 
 // Goes through the steps of a task without executing them. Inputs are assumed to have the values
 // that the steps wait for.
@@ -31,7 +21,7 @@ class TaskPreview {
   TaskPreview(std::vector<PreparedJob::PreparedStep> steps, TouchScene scene, Configuration at);
 
   // Does the actions before the next motion. Returns false if there is no further motion. Problems,
-  // with pointers "/steps/2/attach/object": those of after_action() and of gripper_motion();
+  // with pointers "/steps/2/attach/object": those of TouchScene::act() and of gripper_motion();
   // index() is then the step that cannot be done.
   [[nodiscard]] Result<bool> go_on();
   // The present motion has been found, and ends at its goal.

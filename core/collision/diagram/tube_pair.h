@@ -113,9 +113,9 @@ class TubePair {
   std::shared_ptr<MotionTube> b_;
 };
 
+inline constexpr double kPartingShare = 0.8;
 // Lets pairs move apart that are too close: each of them must keep kPartingShare of its distance
 // instead of its limit.
-inline constexpr double kPartingShare = 0.8;
 void let_part(PairSet& pairs, std::span<const TubePair::PairDistance> near);
 
 }  // namespace armloom
