@@ -90,6 +90,10 @@ void Executive::set_speed(std::optional<ArmId> arm, double share) {
   impl_->note({ExecutiveInput::SpeedSet{arm ? cell.arm(*arm).name : std::string(), share}});
   impl_->set_speed(arm, share);
 }
+Result<CollisionObject> Executive::detach(const std::string& object) {
+  impl_->note({ExecutiveInput::ObjectDetached{object}});
+  return impl_->detach(object);
+}
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
   impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));

@@ -258,6 +258,13 @@ class Executive {
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 
+  // The arm does not hold the object any more, which is part of the scene from now on, where it is:
+  // what an operator does after a job has failed. Returns the object. Problems:
+  // - not_found; "not-held": no arm holds it
+  // - "arm-moves"
+  // - "job-under-way": a job with steps that has begun moves the arm
+  [[nodiscard]] Result<CollisionObject> detach(const std::string& object);
+
   // Shuts down. Accepts no more jobs and stops all arms without an alert. When the arms are at
   // rest, interrupts every job that has not ended, or with Waiting::is_kept only every job that has
   // begun. Then calls `done` on the strand.

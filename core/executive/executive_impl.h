@@ -62,6 +62,9 @@ class Executive::Impl {
   void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<StepsPlan>)> done);
 
+  // task_actions.cc
+  Result<CollisionObject> detach(const std::string& object);
+
   // executive_impl.cc
   void note(ExecutiveInput input) const;
   void step(const Input& input);

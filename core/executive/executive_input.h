@@ -85,6 +85,9 @@ struct ExecutiveInput {
   using ObjectsExpired = armloom::ObjectsExpired;
   using ExpiryRestored = SceneExpiry;
   using ObjectHeld = HeldView;  // by an arm, when the server starts
+  struct ObjectDetached {       // by a client, not by a step
+    std::string object;
+  };
   struct Injected {
     FaultRequest fault;
   };
@@ -134,8 +137,8 @@ struct ExecutiveInput {
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, SpeedSet, PolicyChanged, WoundDown,
                ObjectAdded, ObjectReplaced, ObjectRemoved, ObjectsSet, ObjectsExpired,
-               ExpiryRestored, ObjectHeld, Injected, FaultRemoved, Alerted, Judged, Certified,
-               Planned, StartWritten, Reported, Connected, SignalSet, IoReported>
+               ExpiryRestored, ObjectHeld, ObjectDetached, Injected, FaultRemoved, Alerted, Judged,
+               Certified, Planned, StartWritten, Reported, Connected, SignalSet, IoReported>
       what;
 };
 

@@ -36,9 +36,19 @@ std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell,
                  name};
 }
 
-Problem no_object(const std::string& name) {
-  return Problem{ProblemKind::not_found, "unknown-object", "",
-                 "no object is named \"" + name + "\": GET /scene lists the objects", name};
+// Returns a conflict if an arm holds the object.
+std::optional<Problem> held_in(const std::string& name, const PlanningScene& base, const char* slug,
+                               const char* pointer) {
+  const auto carrier = carrier_of(base, name);
+  if (!carrier) return std::nullopt;
+  return Problem{ProblemKind::conflict, slug, pointer,
+                 base.cell().link(*carrier).name + " holds \"" + name +
+                     "\": let go of it first with POST /scene/objects/" + name + "/detach",
+                 name};
+}
+
+Problem not_placed(const std::string& name, const PlanningScene& base) {
+  return held_in(name, base, "is-held", "").value_or(no_object(name));
 }
 
 Problem scene_full(std::size_t count) {
@@ -67,6 +77,7 @@ Result<Outline> outline(const ObjectAdded& edit, const PlanningScene& base) {
                                "another name",
                            name});
   }
+  if (auto held = held_in(name, base, "name-taken", "/name")) return failure(*std::move(held));
   Outline after{base.objects(), {name}};
   after.objects.push_back(edit.object);
   return after;
@@ -75,14 +86,15 @@ Result<Outline> outline(const ObjectAdded& edit, const PlanningScene& base) {
 Result<Outline> outline(const ObjectReplaced& edit, const PlanningScene& base) {
   Outline after{base.objects(), {edit.object.name}};
   const auto old = std::ranges::find_if(after.objects, named(edit.object.name));
-  if (old == after.objects.end()) return failure(no_object(edit.object.name));
+  if (old == after.objects.end()) return failure(not_placed(edit.object.name, base));
   *old = edit.object;
   return after;
 }
 
 Result<Outline> outline(const ObjectRemoved& edit, const PlanningScene& base) {
   Outline after{base.objects(), {}, {edit.name}};
-  if (std::erase_if(after.objects, named(edit.name)) == 0) return failure(no_object(edit.name));
+  if (std::erase_if(after.objects, named(edit.name)) == 0)
+    return failure(not_placed(edit.name, base));
   return after;
 }
 
@@ -191,6 +203,11 @@ std::string place_of(const SceneEdit& edit, const std::string& name) {
 }
 
 }  // namespace
+
+Problem no_object(const std::string& name) {
+  return Problem{ProblemKind::not_found, "unknown-object", "",
+                 "no object is named \"" + name + "\": GET /scene lists the objects", name};
+}
 
 PreparedEdit prepare(SceneEdit edit, const PlanningScenePtr& base) {
   if (auto* put = std::get_if<ObjectPut>(&edit)) {

@@ -123,6 +123,43 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
   return true;
 }
 
+Result<CollisionObject> Executive::Impl::detach(const std::string& object) {
+  const auto carrier = carrier_of(*scene_.scene(), object);
+  if (!carrier) {
+    const auto found = std::ranges::find(scene_.objects(), object, &CollisionObject::name);
+    if (found == scene_.objects().end()) return failure(no_object(object));
+    return failure(Problem{ProblemKind::conflict, "not-held", "",
+                           "no arm holds \"" + object + "\": it is part of the scene", object});
+  }
+  const ArmId arm = *cell_->link(*carrier).arm;
+  const std::string& name = cell_->arm(arm).name;
+  if (execution_.motions().moving(arm)) {
+    return failure(Problem{ProblemKind::conflict, "arm-moves", "",
+                           "arm " + name +
+                               " moves: wait until it rests, or stop it with "
+                               "POST /arms/" +
+                               name + "/stop",
+                           object});
+  }
+  for (const Task* task : tasks_.begun()) {
+    const auto arms = arms_of(*task);
+    if (std::ranges::find(arms, arm) == arms.end()) continue;
+    const std::string& key = jobs_.key(task->id);
+    return failure(Problem{ProblemKind::conflict, "job-under-way", "",
+                           "job " + key + " is under way and uses arm " + name +
+                               ": cancel it first with DELETE /jobs/" + key,
+                           object});
+  }
+  auto content = detached(*scene_.scene(), execution_.motions().measured(), object);
+  if (!content) return failure(std::move(content.error()));
+  if (auto done = scene_.change(*std::move(content)); !done) {
+    return failure(std::move(done.error()));
+  }
+  TouchOf left{{object, touch_in(*scene_.scene(), object)}};
+  for (const std::string& at : touch_left_.change(left, {}, {arm})) show_touch(at);
+  return place_of(*scene_.scene(), object).object;
+}
+
 // Sets what the task allows to touch.
 void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
   const auto changed = touch_left_.change(task.touch, next, arms_of(task));

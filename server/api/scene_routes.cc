@@ -93,6 +93,31 @@ void delete_object(Call call) {
        });
 }
 
+// The arm lets go of an object, which stays where it is.
+void detach_object(Call call) {
+  if (const auto refusal = refusal_of_store(call.parts)) {
+    return call.respond(refusal_response(*refusal));
+  }
+  struct Detached {
+    std::uint64_t version;
+    CollisionObject object;
+  };
+  ask(
+      call.parts,
+      [name = call.arguments.front()](Executive& executive) -> Result<Detached> {
+        auto placed = executive.detach(name);
+        if (!placed) return failure(std::move(placed.error()));
+        return Detached{executive.scene().version(), *std::move(placed)};
+      },
+      [&parts = call.parts, respond = call.respond](const Result<Detached>& done) {
+        if (!done) return respond(problem_response(done.error()));
+        const CollisionObject& object = done->object;
+        respond_when_stored(
+            parts, {{object.name, text_of_place({object}), is_of_cell(parts, object.name)}},
+            respond, answer(200, scene_change_format(), SceneChange{done->version, object}));
+      });
+}
+
 // ---- All objects at once ----
 
 constexpr const char* kVersionDiffers = "scene-changed";
@@ -268,10 +293,24 @@ std::vector<Route> scene_routes() {
        .tag = "scene",
        .summary = "Remove an object",
        .outcomes = {outcome(200, "The object is removed", scene_version_format())},
-       .refuses = {404, 507},
+       .refuses = {404, 409, 507},
        .who = Who::commander,
        .role = Role::operate,
        .run = delete_object},
+      {.method = "POST",
+       .path = objects + "/{name}/detach",
+       .id = "detachObject",
+       .tag = "scene",
+       .summary = "Let go of an object that an arm holds",
+       .text = "The object is part of the scene from now on, where it is; the arm may still touch "
+               "it until it has left it. The gripper does not move. Afterwards, the object can be "
+               "replaced or removed. 409 if no arm holds it, if the arm moves, or if a job with "
+               "steps that has begun uses the arm.",
+       .outcomes = {outcome(200, "The object is part of the scene", scene_change_format())},
+       .refuses = {404, 409, 507},
+       .who = Who::commander,
+       .role = Role::operate,
+       .run = detach_object},
   };
 }
 

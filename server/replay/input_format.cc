@@ -247,6 +247,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"restore_expiry", {expiry_part()}},
       {"hold_object",
        {object_part<In::ObjectHeld>(), always("link", &In::ObjectHeld::link, text())}},
+      {"detach_object", {always("object", &In::ObjectDetached::object, text())}},
       {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},
       {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},

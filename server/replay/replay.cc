@@ -157,6 +157,7 @@ class Replay::Impl final : public InputLog {
   void comes(const In::ObjectsExpired& in) { (void)executive().scene().edit(in); }
   void comes(const In::ExpiryRestored& in) { executive().scene().restore(in); }
   void comes(const In::ObjectHeld& in) { (void)executive().scene().hold(in); }
+  void comes(const In::ObjectDetached& in) { (void)executive().detach(in.object); }
   void comes(const In::Injected& in) { (void)executive().faults().inject(in.fault); }
   void comes(const In::FaultRemoved& in) { (void)executive().faults().remove(in.fault); }
   void comes(const In::Alerted& in) { executive().alert(in.alert); }
