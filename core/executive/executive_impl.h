@@ -114,6 +114,7 @@ class Executive::Impl {
   bool go_on(Task& task);
   [[nodiscard]] const Step* lost_motion(const Task& task) const;
   void tell_stop(Task& task, JobId next);
+  bool waits_to_retry(Task& task, const std::string& why);
   bool go_on_with_motion(Task& task, TaskStep& present);
   Result<bool> act(Task& task, const StepRequest& request);
   Result<bool> has_arm_of(Task& task, LinkId link);

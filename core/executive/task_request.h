@@ -62,9 +62,14 @@ struct StepRequest {
   std::variant<MotionStepRequest, GripperStepRequest, AttachRequest, DetachRequest, WaitRequest,
                SetIoRequest, WaitIoRequest>
       what;
+  // How often the step is tried again if it fails. Motions to a goal: if no path is found.
+  int retry = 0;
 
   [[nodiscard]] bool is_motion() const { return what.index() <= 1; }
 };
+// The pause between two tries of a step, in cell time.
+inline constexpr Duration kRetryPause = std::chrono::seconds(1);
+
 // Returns "trajectory", "move_to", "gripper", "attach", ...: the member that names the step.
 [[nodiscard]] const char* kind_of(const StepRequest& step);
 

@@ -104,7 +104,8 @@ JobView view_of(const Task& task, const Scheduler& scheduler, const Cell& cell,
   if (task.at < task.steps.size()) view.step = task.at;
   const TaskStep* present = task.present();
   const bool acts = present != nullptr && !present->job && task.since;
-  if (present == nullptr || acts) view.waits_on.clear();
+  const bool is_retried = present != nullptr && present->job && !task.waits_on.empty();
+  if (present == nullptr || acts || is_retried) view.waits_on.clear();
   if (present != nullptr && !present->job) {  // until then, the task waits for what its motion does
     std::erase_if(view.waits_on, [](const WaitView& w) { return w.kind == Wait::Kind::action; });
   }

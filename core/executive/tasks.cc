@@ -60,6 +60,7 @@ void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
     submitted.job = before ? scheduler_.next_job() : id;
     submitted.task = id;
     submitted.awaits_actions = task.steps[i].is_awaited;
+    submitted.retries = task.steps[i].request.retry;
     submitted.is_held_over = is_held_over;
     submitted.start_is_recorded = !before && execution_.starts().has_log();
     tasks_.set_motion(task, i, submitted.job);
@@ -115,6 +116,10 @@ bool Executive::Impl::go_on(Task& task) {
     end_task(task, end_of(task, *lost, view_of(*lost, *cell_, jobs_), clock_.now));
     return true;
   }
+  if (task.since && clock_.now < *task.since) {
+    wake_at(*task.since);
+    return false;
+  }
   if (present.job) return go_on_with_motion(task, present);
   const auto next = task.next_motion();
   if (next && !scheduler_.has_turn_for_actions(*next)) {
@@ -128,6 +133,7 @@ bool Executive::Impl::go_on(Task& task) {
   if (!task.since) task.since = clock_.now;
   const auto done = act(task, present.request);
   if (!done) {
+    if (waits_to_retry(task, text_of(done.error()))) return false;
     fail_task(task, Reason::step_failed, step_text(task) + text_of(done.error()));
     return true;
   }
@@ -144,9 +150,25 @@ bool Executive::Impl::go_on(Task& task) {
   return true;
 }
 
-// Returns the first motion to come that has ended without success: it was in a deadlock.
+// Returns false if the present step, which has failed, is not to be tried again.
+bool Executive::Impl::waits_to_retry(Task& task, const std::string& why) {
+  TaskStep& step = task.steps[task.at];
+  if (step.retried >= step.request.retry) return false;
+  ++step.retried;
+  task.since = clock_.now + kRetryPause;
+  wake_at(*task.since);
+  task.waits_on = {{.kind = Wait::Kind::action,
+                    .detail = "retry " + std::to_string(step.retried) + " of " +
+                              std::to_string(step.request.retry) + " begins in " +
+                              seconds_text(kRetryPause) + ": " + why}};
+  tell_task(task.id);
+  return true;
+}
+
+// Returns the first motion to come, or under way, that has ended without success. Of those to come,
+// it was in a deadlock.
 const Step* Executive::Impl::lost_motion(const Task& task) const {
-  for (std::size_t i = task.at + 1; i < task.steps.size(); ++i) {
+  for (std::size_t i = task.at; i < task.steps.size(); ++i) {
     const auto& motion = task.steps[i].job;
     const Step* step = motion ? scheduler_.find(*motion) : nullptr;
     if (step != nullptr && step->has_ended() && step->state() != JobState::succeeded) return step;
@@ -171,13 +193,22 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
   const Step& motion = *scheduler_.find(*present.job);
   if (motion.has_ended()) {
     if (motion.state() == JobState::succeeded) {
+      task.since.reset();
       ++task.at;
       return true;
     }
     end_task(task, end_of(task, motion, view_of(motion, *cell_, jobs_), clock_.now));
     return true;
   }
-  if (!present.is_awaited) return false;
+  if (!motion.job->awaits_actions) return false;
+  if (present.retried < present.request.retry - motion.job->retries) {
+    (void)waits_to_retry(task, motion.goal->way().refusal.value_or(""));
+    return false;
+  }
+  if (!task.waits_on.empty()) {
+    task.waits_on.clear();
+    tell_task(task.id);
+  }
   if (!scheduler_.has_turn_for_actions(*present.job) || !is_recorded(task)) return false;
   TrajectoryPtr way;
   if (const auto* gripper = std::get_if<GripperStepRequest>(&present.request.what)) {
@@ -189,7 +220,6 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
     way = *std::move(made);
   }
   set_touch(task, present.touch);
-  present.is_awaited = false;
   step(ActionsDone{*present.job, std::move(way)});
   return true;
 }

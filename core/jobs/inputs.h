@@ -49,6 +49,9 @@ struct Submit {
   // Actions of its task come before this motion: it is not planned, and does not start, before
   // ActionsDone.
   bool awaits_actions = false;
+  // How often a motion of a task that has no path to its goal awaits actions again, instead of
+  // failing.
+  int retries = 0;
 };
 // The start of a step whose job waits for it is on disk: its arms can move.
 struct StartRecorded {

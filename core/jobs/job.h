@@ -26,6 +26,7 @@ struct Job {
   bool awaits_record = false;      // StartRecorded
   std::optional<JobId> task = {};  // as in Submit
   bool awaits_actions = false;     // ActionsDone
+  int retries = 0;                 // left; as in Submit
   JobId turn;                      // rank among jobs: the job's own id, unless jobs were reordered
   Errand errand;
   TimePoint submitted_at{};

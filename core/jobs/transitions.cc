@@ -40,6 +40,7 @@ Step step_of(const State& state, const Submit& job, const std::optional<Errand>&
                                        .awaits_record = job.start_is_recorded,
                                        .task = job.task,
                                        .awaits_actions = job.awaits_actions,
+                                       .retries = job.retries,
                                        .turn = job.job,
                                        .errand = errand.value_or(Errand{.on_behalf_of = job.job}),
                                        .submitted_at = state.now}),

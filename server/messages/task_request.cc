@@ -23,6 +23,7 @@ using namespace formats;
 namespace {
 
 constexpr std::size_t kTouchMax = 100;
+constexpr int kRetryMax = 1000;
 
 FormatPtr<std::vector<std::string>> touched_names() {
   return list(name(), {.most = kTouchMax, .noun = "names"});
@@ -96,12 +97,14 @@ struct MotionBody {
   std::string arm;
   std::optional<double> speed;
   std::vector<Trigger> triggers;
+  std::optional<int> retry;
 };
 // The JSON form of an action, or of a motion of the gripper.
 template <class T>
 struct NamedStep {
   std::string name;
   T what{};
+  std::optional<int> retry;
 };
 
 struct WaitBody {
@@ -112,6 +115,19 @@ struct WaitBody {
 template <class Body>
 PartPtr<Body> name_part() {
   return field("name", &Body::name, job_name_format(), "Display name");
+}
+
+template <class Body>
+PartPtr<Body> retry_part() {
+  return field("retry", &Body::retry, integer(0, kRetryMax),
+               "How often the step is tried again after it has failed, each time 1 s later");
+}
+
+template <class Body>
+PartPtr<Body> no_retry() {
+  return not_served<Body>({"retry", "not-served",
+                           "this step cannot be tried again: give retry to a step with move_to, "
+                           "attach, detach or wait_io, or leave it out"});
 }
 
 FormatPtr<MotionBody> motion_format() {
@@ -130,13 +146,14 @@ FormatPtr<MotionBody> motion_format() {
       field("triggers", &Body::triggers,
             list(trigger_format(), {.most = kTriggersMax, .noun = "triggers"}),
             "Outputs that are set during the motion"),
+      only_with("move_to", &Body::retry, retry_part<Body>()),
       exactly_one<Body>({"trajectory", "move_to"}),
   });
 }
 
 FormatPtr<WaitBody> wait_format() {
   return object<WaitBody>(
-      {name_part<WaitBody>(),
+      {name_part<WaitBody>(), no_retry<WaitBody>(),
        required("wait_s", &WaitBody::time, seconds({0.0, kTimeMax_s}), "Waits for this time")});
 }
 
@@ -168,13 +185,14 @@ class StepFormat final : public CustomFormat<StepRequest> {
                       [motion](const JsonNode& node, StepRequest& out) {
                         MotionBody body;
                         motion.read(node, body);
-                        out = {std::move(body.name), motion_of(body, node.pointer().size())};
+                        out = {std::move(body.name), motion_of(body, node.pointer().size()),
+                               body.retry.value_or(0)};
                       },
                       motion.schema(Way::in)});
-    add("gripper", gripper_format(), "Moves the fingers of the gripper");
-    add("attach", attach_format(),
+    add("gripper", gripper_format(), false, "Moves the fingers of the gripper");
+    add("attach", attach_format(), true,
         "The link carries the object from now on. The hand may touch it during the motion before");
-    add("detach", detach_format(),
+    add("detach", detach_format(), true,
         "The object stays where it is. The hand may touch it during the next motion");
     const Format<WaitBody> wait = *wait_format();
     kinds_.push_back({{"wait_s"},
@@ -184,9 +202,9 @@ class StepFormat final : public CustomFormat<StepRequest> {
                         out = {std::move(body.name), WaitRequest{body.time}};
                       },
                       wait.schema(Way::in)});
-    add("set_io", set_io_format(),
+    add("set_io", set_io_format(), false,
         "Sets an output. The step ends when the device has reported the value");
-    add("wait_io", wait_io_format(), "Waits until a signal has the value");
+    add("wait_io", wait_io_format(), true, "Waits until a signal has the value");
   }
   void read(const JsonNode& node, StepRequest& out) const override {
     if (!node.is_object()) return;
@@ -214,15 +232,16 @@ class StepFormat final : public CustomFormat<StepRequest> {
     Schema schema;
   };
   template <class T>
-  void add(const char* key, const FormatPtr<T>& format, const char* text) {
+  void add(const char* key, const FormatPtr<T>& format, bool can_fail, const char* text) {
     using Body = NamedStep<T>;
     const Format<Body> body =
-        *object<Body>({name_part<Body>(), required(key, &Body::what, format, text)});
+        *object<Body>({name_part<Body>(), can_fail ? retry_part<Body>() : no_retry<Body>(),
+                       required(key, &Body::what, format, text)});
     kinds_.push_back({{key},
                       [body](const JsonNode& node, StepRequest& out) {
                         Body read;
                         body.read(node, read);
-                        out = {std::move(read.name), std::move(read.what)};
+                        out = {std::move(read.name), std::move(read.what), read.retry.value_or(0)};
                       },
                       body.schema(Way::in)});
   }

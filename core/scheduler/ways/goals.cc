@@ -55,7 +55,7 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
   for (const Step& other : state.jobs.of(queue)) {
     if (before-- == 0 || other.id == step.id) break;
     if (other.has_open_arm()) continue;
-    if (other.is_unplanned()) return std::nullopt;
+    if (other.is_unplanned() || other.job->awaits_actions) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
   }
   return at;
@@ -193,6 +193,13 @@ bool is_one_of_the_first(const State& state, const Step& step, std::size_t place
   return before < state.cell->arms.size();
 }
 
+// Actions of a task before this job may yet move what is in its way.
+bool may_yet_find_a_path(const State& state, const Step& step) {
+  return std::ranges::any_of(state.jobs.of(state.jobs.active()), [&](const Step& other) {
+    return other.job->awaits_actions && other.job->turn < step.job->turn;
+  });
+}
+
 // The first of the arm's jobs that is to fail; null: none.
 const Step* plan_lane(Transitions& state, ArmId arm) {
   // As they stand now: a job may be taken to go by another arm meanwhile.
@@ -204,10 +211,25 @@ const Step* plan_lane(Transitions& state, ArmId arm) {
     if (step.is_replanned_now()) return nullptr;
     if (step.has_open_arm() && !is_one_of_the_first(state, step, i)) continue;
     const Answered answer = answer_of(state, step);
-    if (answer == Answered::refused) return &step;
+    if (answer == Answered::refused && !may_yet_find_a_path(state, step)) return &step;
     if (answer != Answered::planned && !step.has_open_arm()) return nullptr;
   }
   return nullptr;
+}
+
+// The job has no path, and is planned again after ActionsDone.
+bool waits_to_retry(Transitions& state, const Step& step) {
+  if (step.job->retries == 0) return false;
+  Job job = *step.job;
+  --job.retries;
+  job.awaits_actions = true;
+  state.jobs().set(step, std::move(job));
+  for (std::size_t k = 0; k < step.goal->ways.size(); ++k) {
+    GoalWay way = step.goal->ways[k];
+    way.request = {};
+    state.jobs().set(step, k, std::move(way));
+  }
+  return true;
 }
 
 // By arm, where there are several.
@@ -227,6 +249,7 @@ bool plan_goals(Transitions& state) {
   if (!state->jobs.has_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state->cell->arms.size(); ++arm) {
     while (const Step* step = plan_lane(state, ArmId{arm})) {
+      if (waits_to_retry(state, *step)) continue;
       state.end(*step, JobState::failed, Reason::no_plan, why_none(state, *step));
       any_failed = true;
     }
