@@ -94,16 +94,17 @@ std::vector<Task*> TaskBook::begun() {
   return found;
 }
 
-std::optional<std::string> TaskBook::will_attach(const std::string& object) const {
-  std::optional<std::string> link;
+void TaskBook::change_holding(const Cell& cell, std::map<std::string, LinkId>& carried) const {
   for (const auto& [id, task] : tasks_) {
     if (task.end) continue;
     for (std::size_t i = task.at; i < task.steps.size(); ++i) {
-      const auto* attach = std::get_if<AttachRequest>(&task.steps[i].request.what);
-      if (attach != nullptr && attach->object == object) link = attach->link;
+      if (const auto* attach = std::get_if<AttachRequest>(&task.steps[i].request.what)) {
+        carried.insert_or_assign(attach->object, *cell.find_link(attach->link));
+      } else if (const auto* detach = std::get_if<DetachRequest>(&task.steps[i].request.what)) {
+        carried.erase(detach->object);
+      }
     }
   }
-  return link;
 }
 
 Touch TaskBook::touch_of(const std::string& object) const {

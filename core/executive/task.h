@@ -23,11 +23,12 @@ using TouchOf = std::map<std::string, Touch>;
 struct TaskStep {
   StepRequest request;
   std::optional<JobId> job = {};  // motions
-  // Motions: the scheduler waits for ActionsDone, because actions, a change of `touch` or the
-  // gripper's position come first.
+  // Submit::awaits_actions of a motion: actions, a change of `touch` or the gripper's position come
+  // first.
   bool is_awaited = false;
   TouchOf touch = {};              // motions
   std::size_t triggers_fired = 0;  // motions
+  int retried = 0;
 };
 
 // How a task ended.
@@ -44,11 +45,12 @@ struct Task {
   std::vector<TaskStep> steps;
   std::size_t at = 0;                      // the present step
   std::optional<TimePoint> began_at = {};  // of the first action or motion
-  std::optional<TimePoint> since = {};     // the present action has begun
-  std::vector<Wait> waits_on = {};         // of the present action
-  TouchOf touch = {};                      // what objects may touch at present
-  bool awaits_record = false;              // StartLog::has_moved; ...
-  bool is_present_done = false;            // ... then the present step ends
+  // The present action has begun; or the present step is tried again then.
+  std::optional<TimePoint> since = {};
+  std::vector<Wait> waits_on = {};  // of the present action
+  TouchOf touch = {};               // what objects may touch at present
+  bool awaits_record = false;       // StartLog::has_moved; ...
+  bool is_present_done = false;     // ... then the present step ends
   std::optional<TaskEnd> end = {};
 
   [[nodiscard]] const TaskStep* present() const { return at < steps.size() ? &steps[at] : nullptr; }
@@ -78,9 +80,8 @@ class TaskBook {
   [[nodiscard]] Touch touch_of(const std::string& object) const;
   // Tasks that have begun and not ended.
   [[nodiscard]] std::vector<Task*> begun();
-  // Returns the link to which the last such step of the tasks that have not ended attaches the
-  // object; nullopt if none does.
-  [[nodiscard]] std::optional<std::string> will_attach(const std::string& object) const;
+  // Changes what links carry (by object) as the steps to come of all tasks do.
+  void change_holding(const Cell& cell, std::map<std::string, LinkId>& carried) const;
 
  private:
   std::map<JobId, Task> tasks_;          // by id

@@ -29,11 +29,9 @@ class StepCheck {
             Problems& problems)
       : cell_(cell),
         steps_(steps),
-        known_(present.in_scene.begin(), present.in_scene.end()),
+        known_(present.names.begin(), present.names.end()),
         holder_(present.carried),
-        problems_(problems) {
-    for (const auto& [object, link] : holder_) known_.insert(object);
-  }
+        problems_(problems) {}
 
   void check() {
     for (at_ = 0; at_ < steps_.size(); ++at_) {
@@ -97,15 +95,14 @@ class StepCheck {
           attach.link);
     } else {
       const auto held = holder_.find(attach.object);
-      if (held != holder_.end() && held->second == attach.link) {
+      if (held != holder_.end() && held->second == *link) {
         add("held-twice", "/attach/object",
             attach.link + " holds " + attach.object + " already: detach it before", attach.object);
       }
       if (held != holder_.end()) {  // it changes hands: both must stay until then
-        const auto giver = cell_.find_link(held->second);
-        if (giver) look_for_motion_of(*cell_.link(*giver).arm, "/attach/object", attach.object);
+        look_for_motion_of(*cell_.link(held->second).arm, "/attach/object", attach.object);
       }
-      holder_[attach.object] = attach.link;
+      holder_.insert_or_assign(attach.object, *link);
       look_for_motion_of(*cell_.link(*link).arm, "/attach/link", attach.link);
     }
   }
@@ -114,8 +111,7 @@ class StepCheck {
     look_at_touch(detach.touch, "/detach/touch");
     const auto by = holder_.find(detach.object);
     if (by != holder_.end()) {
-      const auto link = cell_.find_link(by->second);
-      if (link) look_for_motion_of(*cell_.link(*link).arm, "/detach/object", detach.object);
+      look_for_motion_of(*cell_.link(by->second).arm, "/detach/object", detach.object);
       holder_.erase(by);
     } else if (known_.contains(detach.object)) {
       add("not-held", "/detach/object",
@@ -177,7 +173,7 @@ class StepCheck {
   const Cell& cell_;
   const std::vector<StepRequest>& steps_;
   std::set<std::string> known_;
-  std::map<std::string, std::string> holder_;  // link, by object
+  std::map<std::string, LinkId> holder_;  // link, by object
   Problems& problems_;
   std::size_t at_ = 0;
 };
@@ -231,16 +227,13 @@ Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
 
 PresentObjects JobIntake::present_objects() const {
   PresentObjects present;
-  const PlanningScenePtr now = scene_();
-  const PlanningScene& scene = *now;
-  for (const CollisionObject& object : scene.objects()) {
-    present.in_scene.push_back(object.name);
-    if (const auto link = tasks_.will_attach(object.name)) present.carried[object.name] = *link;
+  const PlanningScenePtr scene = scene_();
+  for (const CollisionObject& object : scene->objects()) present.names.push_back(object.name);
+  for (const Attachment& held : scene->attachments()) {
+    present.names.push_back(held.object.name);
+    present.carried.emplace(held.object.name, held.link);
   }
-  for (const Attachment& held : scene.attachments()) {
-    const auto link = tasks_.will_attach(held.object.name);
-    present.carried[held.object.name] = link.value_or(cell_->link(held.link).name);
-  }
+  tasks_.change_holding(*cell_, present.carried);
   return present;
 }
 
@@ -251,14 +244,10 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
     problems.push_back({ProblemKind::invalid, "not-served", "/reorderable",
                         "a job with steps cannot be reordered: leave out \"reorderable\"", "true"});
   }
-  find_bad_steps(*cell_, request.steps, present_objects(), problems);
+  PresentObjects present = present_objects();
+  find_bad_steps(*cell_, request.steps, present, problems);
   if (!problems.empty()) return {};
-  std::map<std::string, LinkId> carried;
-  const PlanningScenePtr now = scene_();
-  for (const Attachment& held : now->attachments()) {
-    carried.emplace(held.object.name, held.link);
-  }
-  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, std::move(carried));
+  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, std::move(present.carried));
   std::vector<PreparedJob::PreparedStep> steps;
   bool acts_before = false, is_first = true;
   const TouchOf* before = nullptr;

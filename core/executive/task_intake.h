@@ -16,9 +16,9 @@ namespace armloom {
 
 // The objects of the cell when a task is submitted.
 struct PresentObjects {
-  std::vector<std::string> in_scene;  // names
-  // Names, with the link that carries the object; those that tasks before it will attach included.
-  std::map<std::string, std::string> carried;
+  std::vector<std::string> names;
+  // By name: the link that carries the object after all tasks before this one.
+  std::map<std::string, LinkId> carried;
 };
 
 // Adds what is wrong with the actions of a task, with pointers "/steps/2/attach/link":

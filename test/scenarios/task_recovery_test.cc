@@ -1,0 +1,141 @@
+// Jobs with steps that fail: steps that are tried again, and what an operator does with what an arm
+// still holds.
+#include <gmock/gmock.h>
+
+#include "test/scenarios/tasks.h"
+
+namespace armloom {
+namespace {
+
+using ::testing::HasSubstr;
+
+StepRequest retried(StepRequest step, int retry) {
+  step.retry = retry;
+  return step;
+}
+
+void run_until(Tasks& cell, TimePoint until) {
+  while (cell.simulation->now() < until) cell.simulation->tick();
+}
+
+void run_to_the_end(Tasks& cell) {
+  while (!cell.executive().all_ended() && cell.simulation->now() < at(60s)) cell.simulation->tick();
+}
+
+// A camera sees the part later.
+TEST(Retry, AttachesThePartOnceItIsThere) {
+  Tasks cell;
+  ASSERT_TRUE(cell.scene().remove("part"));
+  auto steps = pick_and_place();
+  steps[1] = retried(steps[1], 5);
+  ASSERT_TRUE(cell.scene().add(part_at(0.5)));
+  cell.submit(task("pick", std::move(steps)));
+  run_until(cell, at(4s));
+  const JobView waiting = cell.job("pick");
+  EXPECT_EQ(waiting.state, JobState::paused);
+  ASSERT_EQ(waiting.waits_on.size(), 1U);
+  EXPECT_THAT(waiting.waits_on.front().detail, HasSubstr("of 5 begins in 1 s: part is"));
+  ASSERT_TRUE(cell.scene().replace(part_at(0.13)));
+  run_to_the_end(cell);
+  EXPECT_EQ(cell.job("pick").state, JobState::succeeded) << cell.job("pick").detail();
+}
+
+TEST(Retry, EndsWithTheLastTry) {
+  Tasks cell;
+  cell.submit(task(
+      "wait", {slide_to("x", -0.9), retried({"", WaitIoRequest{"ready", true, Duration(500ms)}}, 2),
+               slide_to("x", -1.0)}));
+  run_to_the_end(cell);
+  const JobView job = cell.job("wait");
+  EXPECT_EQ(job.reason(), Reason::step_failed);
+  // Three tries of 0.5 s, and two pauses of 1 s.
+  const double waited_s = to_seconds(*job.times.ended_at - *job.times.started_at);
+  EXPECT_GT(waited_s, 3.5);
+  EXPECT_LT(waited_s, 4.5);
+}
+
+TEST(Retry, PlansAgainOnceTheGoalIsFree) {
+  Tasks cell;
+  ASSERT_TRUE(cell.scene().replace(part_at(0.5)));
+  cell.submit(task("go", {slide_to("x", -0.5), retried(slide_to("x", 0.5), 4)}));
+  run_until(cell, at(4s));
+  const JobView waiting = cell.job("go");
+  EXPECT_EQ(waiting.state, JobState::paused);
+  ASSERT_EQ(waiting.waits_on.size(), 1U);
+  EXPECT_THAT(waiting.waits_on.front().detail, HasSubstr("of 4 begins in 1 s: "));
+  ASSERT_TRUE(cell.scene().remove("part"));
+  run_to_the_end(cell);
+  EXPECT_EQ(cell.job("go").state, JobState::succeeded) << cell.job("go").detail();
+}
+
+TEST(Retry, EndsWithTheLastPlan) {
+  Tasks cell;
+  ASSERT_TRUE(cell.scene().replace(part_at(0.5)));
+  cell.submit(task("go", {slide_to("x", -0.5), retried(slide_to("x", 0.5), 2)}));
+  run_to_the_end(cell);
+  const JobView job = cell.job("go");
+  EXPECT_EQ(job.reason(), Reason::no_plan);
+  EXPECT_EQ(job.result->step, 1U);
+  EXPECT_GT(to_seconds(*job.times.ended_at - *job.times.started_at), 2.0);
+}
+
+// The part is known to be at its place again before the first job has begun.
+TEST(Task, PicksWhatAJobBeforeItPlaces) {
+  Tasks cell;
+  cell.submit(task("there", pick_and_place()));
+  cell.submit(task("back", {slide_to("x", 0.5), attach("x_ball"), slide_to("x", 0.0), detach(),
+                            slide_to("x", -1.0)}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("back").state, JobState::succeeded) << cell.job("back").detail();
+  EXPECT_NEAR(cell.x_of_part(), 0.13, 2e-3);
+  const auto refused = cell.executive().submit(task("none", {slide_to("x", 0.0), detach()}));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().slug, "not-held");
+}
+
+// The path of `second` is asked for while x holds the part, or while it lies at its goal.
+TEST(Task, PlansBehindATaskOnlyWhenItsActionsAreDone) {
+  Tasks cell;
+  cell.submit(task("first", pick_and_place()));  // from 0.13 to 0.63
+  cell.submit(task("second", {slide_to("x", 0.13), set("valve", true), slide_to("x", -1.0)}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("first").state, JobState::succeeded) << cell.job("first").detail();
+  EXPECT_EQ(cell.job("second").state, JobState::succeeded) << cell.job("second").detail();
+}
+
+std::string slug_of(const Result<CollisionObject>& answer) {
+  return answer ? "" : answer.error().front().slug;
+}
+
+// The job ends while the arm holds the part, and nobody would let it go.
+TEST(Detach, LetsGoOfWhatAFailedJobHolds) {
+  Tasks cell;
+  EXPECT_EQ(slug_of(cell.executive().detach("part")), "not-held");
+  EXPECT_EQ(slug_of(cell.executive().detach("trap")), "unknown-object");
+  cell.submit(task("pick", {slide_to("x", 0.0),
+                            attach("x_ball"),
+                            slide_to("x", 0.5),
+                            {"", WaitIoRequest{"ready", true, Duration(2s)}},
+                            detach(),
+                            slide_to("x", -1.0)}));
+  const auto is_at = [&](std::size_t step) { return cell.job("pick").step == step; };
+  while (!is_at(2) || cell.executive().arms().front().state != ArmState::moving)
+    cell.simulation->tick();
+  EXPECT_EQ(slug_of(cell.executive().detach("part")), "arm-moves");
+  while (!is_at(3)) cell.simulation->tick();
+  cell.simulation->tick();
+  EXPECT_EQ(slug_of(cell.executive().detach("part")), "job-under-way");
+  run_to_the_end(cell);
+  ASSERT_EQ(cell.job("pick").reason(), Reason::step_failed);
+  const auto placed = cell.executive().detach("part");
+  ASSERT_TRUE(placed) << placed.error().front().detail;
+  EXPECT_NEAR(placed->X_WO.translation().x(), 0.63, 1e-3);
+  EXPECT_NEAR(cell.x_of_part(), 0.63, 1e-3);
+  cell.submit(move_to("x", -1.0, "away"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("away").state, JobState::succeeded) << cell.job("away").detail();
+  EXPECT_TRUE(cell.scene().scene()->touch().empty());
+}
+
+}  // namespace
+}  // namespace armloom
