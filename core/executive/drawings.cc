@@ -33,14 +33,15 @@ DiagramView shown(DiagramView view, const Diagram& diagram, const Cell& cell) {
 }  // namespace
 
 Result<const Step*> Drawings::known(const std::string& key, const std::string& pointer) const {
-  if (const auto id = jobs_.find(key)) return scheduler_.find(*id);
+  if (const auto id = jobs_.find(key)) return scheduler_.find(tasks_.motion_of(*id));
   return failure(Problem{ProblemKind::not_found, "no-such-job", pointer,
                          "there is no job \"" + key + "\"", key});
 }
 
 DiagramView::Side Drawings::side_of(const Step& step) const {
-  return {.job = jobs_.key(step.id.job),
-          .state = step.state(),
+  const JobId id = tasks_.told(step.id.job);
+  return {.job = jobs_.key(id),
+          .state = jobs_.state(id),
           .duration = step.trajectory->duration(),
           .progress = std::clamp(step.progress, Duration{}, step.trajectory->duration())};
 }

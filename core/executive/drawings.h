@@ -7,6 +7,7 @@
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
 #include "core/executive/live_scene.h"
+#include "core/executive/task.h"
 
 namespace armloom {
 
@@ -16,8 +17,9 @@ namespace armloom {
 class Drawings {
  public:
   // All arguments outlive this object.
-  Drawings(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& judges)
-      : scheduler_(scheduler), jobs_(jobs), judges_(judges) {}
+  Drawings(const Scheduler& scheduler, const TaskBook& tasks, const JobRegister& jobs,
+           JudgementService& judges)
+      : scheduler_(scheduler), tasks_(tasks), jobs_(jobs), judges_(judges) {}
 
   // Two jobs by key, and the scene and time of the request (Executive::diagram()).
   struct Asked {
@@ -38,6 +40,7 @@ class Drawings {
   [[nodiscard]] DiagramView::Side side_of(const Step& step) const;
 
   const Scheduler& scheduler_;
+  const TaskBook& tasks_;
   const JobRegister& jobs_;
   JudgementService& judges_;
   std::deque<Drawn> drawn_;  // newest first

@@ -122,9 +122,7 @@ Snapshot Executive::snapshot(std::size_t ended_max) const {
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
   const auto id = impl_->jobs_.find(key);
   if (!id) return nullptr;
-  const Task* task = impl_->tasks_.find(*id);
-  const JobId motion = task == nullptr ? *id : task->next_motion().value_or(*id);
-  return impl_->scheduler_.find(motion)->trajectory;
+  return impl_->scheduler_.find(impl_->tasks_.motion_of(*id))->trajectory;
 }
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {

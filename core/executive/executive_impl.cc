@@ -43,7 +43,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
            .refused = [this](StepId id, const GuardRefusal& r) { refused(id.job, r); },
            .allowed =
                [this](StepId id) { publisher_.tell_job(publisher_.view(id.job), clock_.now); }}),
-      questions_(scheduler_, jobs_, judges),
+      questions_(scheduler_, tasks_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,

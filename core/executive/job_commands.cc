@@ -56,8 +56,7 @@ Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amen
 Result<JobView> Executive::Impl::replan(const std::string& key) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
-  const Task* task = tasks_.find(*id);
-  const JobId motion = task == nullptr ? *id : task->next_motion().value_or(*id);
+  const JobId motion = tasks_.motion_of(*id);
   if (const auto why = why_not_replanned(*scheduler_.find(motion))) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
                            "job \"" + key + "\" cannot be replanned: " + *why, key});

@@ -13,8 +13,9 @@ namespace armloom {
 class OpenQuestions {
  public:
   // All arguments outlive this object.
-  OpenQuestions(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& service)
-      : service_(service), plans_(service), drawings_(scheduler, jobs, service) {}
+  OpenQuestions(const Scheduler& scheduler, const TaskBook& tasks, const JobRegister& jobs,
+                JudgementService& service)
+      : service_(service), plans_(service), drawings_(scheduler, tasks, jobs, service) {}
 
   // Asks the scheduler's question, one at a time. `done` is called on the strand.
   void judge(const Question& question, PlanningScenePtr scene, std::function<void(Judged)> done) {

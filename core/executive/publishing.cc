@@ -194,7 +194,7 @@ std::vector<ArmAuthority> Publisher::authorities() const {
 
 JobView Publisher::view(JobId id) const {
   const Task* task = shown_.tasks.find(id);
-  const JobId shown = task == nullptr ? id : task->next_motion().value_or(id);
+  const JobId shown = shown_.tasks.motion_of(id);
   JobView view = task == nullptr ? view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs)
                                  : view_of(*task, shown_.scheduler, shown_.cell, shown_.jobs);
   view.times.expires_at = shown_.scheduler.expiry(shown);
