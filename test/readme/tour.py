@@ -179,7 +179,7 @@ def main():
         failed = own_robots(readme, sys.argv[1], folder) + without_a_server(readme, folder)
     if ADDRESS not in "".join(commands for commands, _ in tour):
         sys.exit(f"no block names {ADDRESS}")
-    with Server(sys.argv[1], TOP / "config/two_pandas.json") as url:
+    with Server(sys.argv[1], TOP / "config/pick_and_place.json") as url:
         here = [(commands.replace(ADDRESS, url), expected) for commands, expected in tour]
         failed += run_tour(here) + reasons_are_explained(readme, url)
     sys.exit(1 if failed else 0)

@@ -104,6 +104,11 @@ std::vector<std::string> RandomTasks::see(const SceneView& scene) {
 
 void RandomTasks::set_input() { (void)executive_().signals().set("ready", random_.chance(0.7)); }
 
+void RandomTasks::let_go() {
+  const auto held = held_;
+  for (const auto& [part, arm] : held) (void)executive_().detach(part);
+}
+
 StepRequest RandomTasks::move(std::size_t arm, std::vector<double> q) const {
   MotionStepRequest motion{.trajectory = {}, .arm = cell_.arms[arm].name};
   motion.move_to = PlanGoal{.joints = std::move(q), .named = {}, .pose = {}};
@@ -205,6 +210,11 @@ std::optional<JobRequest> RandomTasks::any() {
     if (is_here && request.steps.empty()) pick(request.steps, part, arm);
   }
   if (request.steps.empty()) return std::nullopt;
+  for (StepRequest& step : request.steps) {
+    const bool can_fail = !std::holds_alternative<WaitRequest>(step.what) &&
+                          !std::holds_alternative<SetIoRequest>(step.what);
+    if (can_fail && random_.chance(0.2)) step.retry = 1 + static_cast<int>(random_.index(3));
+  }
   ++next_;
   if (random_.chance(0.3)) request.terms.priority = static_cast<int>(random_.index(3)) - 1;
   return request;

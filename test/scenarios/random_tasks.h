@@ -29,6 +29,8 @@ class RandomTasks {
   [[nodiscard]] std::optional<JobRequest> any();
   // Call at intervals: sets the input to a random value.
   void set_input();
+  // Makes arms let go of what they hold, where that is possible now.
+  void let_go();
   // Call with each scene that is published. Returns the parts that are not at exactly one place.
   [[nodiscard]] std::vector<std::string> see(const SceneView& scene);
 

@@ -662,7 +662,10 @@ export const kText = {
     hint: 'A change takes effect immediately: a motion that the object blocks pauses before it.',
     past: 'The past scene cannot be changed.',
     held_by: (arm: string) => `held by ${arm}`,
-    held_sentence: (name: string, arm: string, link: string) => `${arm} holds ${name} (on ${link}). It can be changed after a step of a job detaches it.`,
+    held_sentence: (name: string, arm: string, link: string) => `${arm} holds ${name} (on ${link}). It can be changed after a step of a job has detached it, or after you let it go.`,
+    let_go: (name: string) => `Let go of ${name}…`,
+    let_go_now: (name: string) => `Let go of ${name}`,
+    let_go_means: (arm: string) => `The gripper does not move. The object stays in the scene where it is, and ${arm} may leave it.`,
     none_called: (name: string) => `There is no object called ${name}.`,
     none_called_then: (name: string) => `There was no object called ${name}.`,
     mesh: 'A mesh: change it through the API.',
@@ -1007,5 +1010,6 @@ export const kText = {
     inject: (kind: string, arm: string) => `The fault ${kind} of ${arm}`,
     remove_fault: (id: string) => `Remove fault ${id}`,
     remove: (object: string) => `Remove ${object}`,
+    let_go: (object: string) => `Let go of ${object}`,
   },
 } as const;

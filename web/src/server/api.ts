@@ -93,6 +93,11 @@ export class Api {
     return this.ask('DELETE', `/scene/objects/${encodeURIComponent(name)}`);
   }
 
+  /** The arm does not hold the object any more, which is part of the scene. */
+  detach_object(name: string): Promise<Answer<unknown>> {
+    return this.ask('POST', `/scene/objects/${encodeURIComponent(name)}/detach`);
+  }
+
   /** Changes the given members of a job. */
   amend_job(id: string, changes: JobAmendment): Promise<Answer<unknown>> {
     return this.ask('PATCH', `/jobs/${encodeURIComponent(id)}`, JSON.stringify(changes));
