@@ -86,7 +86,7 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
       <ArmNotes arm={arm} />
       <p>{need.words}</p>
       <Holds arm={arm.name} app={app} in_sentence />
-      {app.router.address.value.t_s === null && job === null && store.holds(arm.name).map((object) => <div key={object} class="line"><LetGo object={object} arm={arm.name} app={app} /></div>)}
+      {app.router.address.value.t_s === null && job === null && store.holds(arm.name).map((object) => <LetGo key={object} object={object} arm={arm.name} app={app} />)}
       <div class="line">
         {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={why_no_resume !== null} title={why_no_resume ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>{kWords.resume_one(shown_name(arm.name))}</button>}
         {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? kWords.its_job : kWords.its_next_job}</Link>}

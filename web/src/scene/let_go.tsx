@@ -16,8 +16,10 @@ export function LetGo({ object, arm, app }: { object: string; arm: string; app: 
     if (!await app.actions.ask(kText.command.let_go(object), app.api.detach_object(object))) question.take_back();
   };
   return question.asked
-    ? <><button type="button" class="danger small" data-test="let-go-now" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void let_go()}>{kWords.let_go_now(shown_name(object))}</button>
-      <button type="button" class="small" onClick={question.take_back}>{kText.common.keep}</button>
-      <span class="dim small" role="status">{kWords.let_go_means(shown_name(arm))}</span></>
-    : <button ref={question.button} type="button" class="small" data-test="let-go" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={question.ask}>{kWords.let_go(shown_name(object))}</button>;
+    ? <><p class="hint" role="status">{kWords.let_go_means(shown_name(arm))}</p>
+      <div class="line">
+        <button type="button" class="danger small" data-test="let-go-now" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void let_go()}>{kWords.let_go_now(shown_name(object))}</button>
+        <button type="button" class="small" onClick={question.take_back}>{kText.common.keep}</button>
+      </div></>
+    : <div class="line"><button ref={question.button} type="button" class="small" data-test="let-go" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={question.ask}>{kWords.let_go(shown_name(object))}</button></div>;
 }

@@ -34,7 +34,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
         {held.map(({ object, arm }) => <Entry key={object.name} object={object} arm={arm} chosen={name} app={app} />)}
       </ul>
       {chosen_held && <p class="hint" data-test="object-held">{kWords.held_sentence(shown_name(chosen_held.object.name), shown_name(chosen_held.arm), shown_name(chosen_held.link))}</p>}
-      {chosen_held && app.router.address.value.t_s === null && <div class="line"><LetGo object={chosen_held.object.name} arm={chosen_held.arm} app={app} /></div>}
+      {chosen_held && app.router.address.value.t_s === null && <LetGo object={chosen_held.object.name} arm={chosen_held.arm} app={app} />}
       {name !== null && !chosen && !chosen_held && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
       {chosen && app.router.address.value.t_s === null && <DragButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
