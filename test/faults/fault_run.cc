@@ -142,7 +142,7 @@ class FaultRun {
     if (witness_->open.size() >= plan_.open_max) return;
     std::optional<JobRequest> task;
     if (tasks_) tasks_->set_input();
-    if (tasks_ && random_.chance(0.05)) tasks_->let_go();
+    if (tasks_ && random_.chance(0.2)) tasks_->tidy_up();
     if (tasks_ && random_.chance(0.6)) task = tasks_->any();
     JobRequest request = task ? *std::move(task) : jobs_->any();
     const JobRequest copy = request;

@@ -73,6 +73,7 @@ void RandomTasks::place_parts() {
       parts_.insert(part.name);
       X_W_part_[part.name] = part.X_WO;
       grasps_[part.name] = {arm, q};
+      starts_[part.name] = {part, {arm, q}};
       break;
     }
   }
@@ -104,9 +105,16 @@ std::vector<std::string> RandomTasks::see(const SceneView& scene) {
 
 void RandomTasks::set_input() { (void)executive_().signals().set("ready", random_.chance(0.7)); }
 
-void RandomTasks::let_go() {
-  const auto held = held_;
-  for (const auto& [part, arm] : held) (void)executive_().detach(part);
+void RandomTasks::tidy_up() {
+  const auto moves = [](const ArmView& arm) { return arm.state == ArmState::moving; };
+  if (std::ranges::any_of(executive_().arms(), moves)) return;
+  for (const auto& [part, start] : starts_) {
+    if (held_.contains(part) && !executive_().detach(part)) continue;
+    held_.erase(part);
+    if (!executive_().scene().replace(start.object)) continue;  // an arm is there
+    X_W_part_[part] = start.object.X_WO;
+    grasps_[part] = start.grasp;
+  }
 }
 
 StepRequest RandomTasks::move(std::size_t arm, std::vector<double> q) const {

@@ -29,8 +29,9 @@ class RandomTasks {
   [[nodiscard]] std::optional<JobRequest> any();
   // Call at intervals: sets the input to a random value.
   void set_input();
-  // Makes arms let go of what they hold, where that is possible now.
-  void let_go();
+  // As an operator does while no arm moves: puts all parts back to where they were first, out of
+  // the hands too, where that is possible now.
+  void tidy_up();
   // Call with each scene that is published. Returns the parts that are not at exactly one place.
   [[nodiscard]] std::vector<std::string> see(const SceneView& scene);
 
@@ -57,6 +58,11 @@ class RandomTasks {
   std::function<Executive&()> executive_;
   std::vector<std::string> hands_;  // names of links, by arm
   std::set<std::string> parts_;
+  struct Start {
+    CollisionObject object;
+    Grasp grasp;
+  };
+  std::map<std::string, Start> starts_;
   std::map<std::string, Grasp> grasps_;                // parts of the scene
   std::map<std::string, std::size_t> held_;            // parts: arms that carry them
   std::map<std::string, Eigen::Isometry3d> X_W_part_;  // parts of the scene

@@ -193,8 +193,10 @@ bool is_one_of_the_first(const State& state, const Step& step, std::size_t place
   return before < state.cell->arms.size();
 }
 
-// Actions of a task before this job may yet move what is in its way.
-bool may_yet_find_a_path(const State& state, const Step& step) {
+// Actions of a task before this job may yet move what is in its way. The first of a queue does not
+// wait for that: the task may wait for it.
+bool may_yet_find_a_path(const State& state, const Step& step, std::size_t place) {
+  if (place == 0) return false;
   return std::ranges::any_of(state.jobs.of(state.jobs.active()), [&](const Step& other) {
     return other.job->awaits_actions && other.job->turn < step.job->turn;
   });
@@ -211,7 +213,7 @@ const Step* plan_lane(Transitions& state, ArmId arm) {
     if (step.is_replanned_now()) return nullptr;
     if (step.has_open_arm() && !is_one_of_the_first(state, step, i)) continue;
     const Answered answer = answer_of(state, step);
-    if (answer == Answered::refused && !may_yet_find_a_path(state, step)) return &step;
+    if (answer == Answered::refused && !may_yet_find_a_path(state, step, i)) return &step;
     if (answer != Answered::planned && !step.has_open_arm()) return nullptr;
   }
   return nullptr;
