@@ -1,24 +1,26 @@
-// Makes the README's animated picture: a job is blocked and says why, the blocking arm retreats, the job starts.
+// Makes the README's animated picture of its example: the bar in the left hand blocks the right arm's job, which says why.
 //
 //   node test/browser/film.mjs [FILE]      default web/blocked.webp; needs img2webp (apt-get install webp)
 
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import { ask, Browser, job_through, kRoot, Server } from './harness.mjs';
+import { ask, Browser, kRoot, Server } from './harness.mjs';
 
 const kFrame_s = 0.2;   // time between two frames, in the cell and in the picture
 const kSpeed = 0.1;  // speed of the cell, so that each frame has two seconds to be drawn
+const kBegin_s = 4.5;   // the left arm has the bar
+const kMeet_s = 6;      // the job `meet` is posted
 const kMost = 70;       // frames
 const kBytesMax = 3 << 20;
 
 const file = resolve(process.argv[2] ?? join(kRoot, 'web/blocked.webp'));
 const folder = mkdtempSync(join(tmpdir(), 'armloom-film-'));
-const server = new Server('config/two_pandas.json', 'coordinated', ['--speed', String(kSpeed)]);
+const server = new Server('config/pick_and_place.json', 'earliest_start', ['--speed', String(kSpeed)]);
 const browser = new Browser();
-const joints = (arm) => [1, 2, 3, 4, 5, 6, 7].map((n) => `${arm}_panda_joint${n}`);
-const reach = (id, arm) => job_through(id, joints(arm), [[0, -1.2, 0, -2.6, 0, 1.6, 0.785], [0, -0.4, 0, -1.2, 0, 2.0, 0.785]], 3);
+const example = readFileSync(join(kRoot, 'README.md'), 'utf8').split('## Example: ')[1].split('\n## ')[0];
+const [show, meet] = [...example.matchAll(/-d '(\{[^']*\})'/g)].map(([, body]) => JSON.parse(body));
 
 try {
   const url = await server.start();
@@ -31,14 +33,16 @@ try {
     frames.push(join(folder, `${String(frames.length).padStart(3, '0')}.png`));
     await page.screenshot({ path: frames.at(-1) });
   };
-  await shoot();
-  for (const job of [reach('reach', 'left'), reach('meet', 'right')]) await ask(page, 'POST', '/jobs', job);
+  await ask(page, 'POST', '/jobs', show);
   const begun_s = await now_s();
+  const passed = async (s) => page.waitForTimeout(Math.max(0, (begun_s + s - await now_s()) / kSpeed * 1000));
+  let is_posted = false;
   for (let is_done = false; !is_done && frames.length < kMost;) {
-    const wait_s = begun_s + frames.length * kFrame_s - await now_s();
-    await page.waitForTimeout(Math.max(0, wait_s / kSpeed * 1000));
+    const at_s = kBegin_s + frames.length * kFrame_s;
+    await passed(at_s);
+    if (at_s >= kMeet_s && !is_posted) is_posted = (await ask(page, 'POST', '/jobs', meet)).status === 202;
     await shoot();
-    is_done = (await ask(page, 'GET', '/jobs/meet')).value.progress > 0.9;
+    is_done = is_posted && (await ask(page, 'GET', '/jobs/meet')).value.progress > 0.9;
   }
   if (frames.length === kMost) throw new Error('the blocked job did not get near its end');
   const last = Array(8).fill(frames.at(-1));
