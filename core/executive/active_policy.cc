@@ -19,7 +19,7 @@ Result<void> Executive::ActivePolicy::change(const std::string& name) {
     return failure(std::move(policy.error()));
   }
   const Scheduler& scheduler = executive_.scheduler_;
-  if (!scheduler.may_change_policy()) {
+  if (!scheduler.state().graph.motions().empty()) {
     std::string admitted;
     for (JobId job : scheduler.active()) {
       if (scheduler.find(job)->in<Queued>() != nullptr) continue;

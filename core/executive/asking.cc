@@ -192,7 +192,7 @@ struct Executive::Impl::OpenInquiry {
 
 void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
                            std::function<void(Result<PlanOutcome>)> done) {
-  auto questions = questions_of(*cell_, inquiry, scheduler_.predicted_rest());
+  auto questions = questions_of(*cell_, inquiry, predicted_rest(scheduler_.state()));
   if (!questions) return done(failure(std::move(questions.error())));
   for (PlanQuestion& question : *questions) question.may_move = may_move({question.goal.arm});
   plan_next(std::make_shared<OpenInquiry>(OpenInquiry{std::move(inquiry), *std::move(questions),
@@ -214,7 +214,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
     const std::vector<Eigen::VectorXd> points = answer->way.points;
     JobRequest job{.key = "", .name = "", .trajectory = answer->timed.request};
     PlanView view{.arm = arm, .others = {}, .motion = *std::move(answer)};
-    view.takes = scheduler_.time_for(*view.motion.timed.trajectory);
+    view.takes = scheduler_.state().time_for(*view.motion.timed.trajectory);
     view.length = view.motion.way.length();
     view.straight_line_length = (points.back() - points.front()).norm();
     check(std::move(job), [this, inquiry, view = std::move(view)](auto verdict) mutable {

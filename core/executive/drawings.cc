@@ -69,16 +69,16 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
       .time = asked.now, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version};
   const auto cached = std::ranges::find_if(drawn_, [&](const Drawn& drawn) {
     return drawn.a == motion_a && drawn.b == motion_b && drawn.scene_version == scene_version &&
-           drawn.rest == scheduler_.rest();
+           drawn.rest == scheduler_.state().arms.rest();
   });
   if (cached != drawn_.end()) return done(shown(std::move(view), cached->diagram, cell));
   Drawing drawing{.a = motion_a,
                   .b = motion_b,
-                  .rest = scheduler_.rest(),
+                  .rest = scheduler_.state().arms.rest(),
                   .tracking_errors = TrackingErrors(cell),
                   .resolution = kResolution,
                   .budget = kCells};
-  Drawn remembered{motion_a, motion_b, scheduler_.rest(), scene_version, {}};
+  Drawn remembered{motion_a, motion_b, scheduler_.state().arms.rest(), scene_version, {}};
   const auto drawn = [this, &cell, view = std::move(view), done,
                       remembered = std::move(remembered)](Diagram diagram) mutable {
     remembered.diagram = std::move(diagram);

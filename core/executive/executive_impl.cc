@@ -240,7 +240,7 @@ void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& ca
                            Alert::Level level, StopCategory category) {
   // Whoever asks again and again is heard each time, and told of once.
   const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
-    const auto& stop = scheduler_.stop_of(arm);
+    const auto& stop = scheduler_.state().arms.stop_of(arm);
     return !stop || stop->cause != cause;
   });
   if (is_news) {
@@ -278,7 +278,7 @@ std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
 void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
   step(SetSpeed{arm, share});
   std::vector<double> shares;
-  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.speed().effective(each));
+  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.state().speed.effective(each));
   execution_.set_speed(std::move(shares));
   publisher_.tell_arms(clock_.now);
 }

@@ -159,7 +159,7 @@ void Publisher::tell_queue(TimePoint now) {
 // stop.
 void Publisher::tell_stopped(TimePoint now) {
   const bool stopped = all_stopped();
-  const double speed = shown_.scheduler.speed().cell();
+  const double speed = shown_.scheduler.state().speed.cell();
   const bool is_news = told_queue_.stopped != stopped || told_queue_.speed_override != speed;
   told_queue_.stopped = stopped;
   told_queue_.speed_override = speed;
@@ -240,7 +240,7 @@ void Publisher::publish(TimePoint now) {
                    .time = now,
                    .policy = shown_.scheduler.policy().name,
                    .stopped = all_stopped(),
-                   .speed_override = shown_.scheduler.speed().cell(),
+                   .speed_override = shown_.scheduler.state().speed.cell(),
                    .jobs = jobs_.share(),
                    .q = shown_.motions.measured(),
                    .arms = arms_},
@@ -266,7 +266,7 @@ const QueueView& Publisher::queue() {
   QueueView& view = lists_.view();
   view.policy = shown_.scheduler.policy().name;
   view.stopped = all_stopped();
-  view.speed_override = shown_.scheduler.speed().cell();
+  view.speed_override = shown_.scheduler.state().speed.cell();
   return view;
 }
 
@@ -300,9 +300,10 @@ ArmStatus Publisher::status_of(ArmId arm) const {
                    .link = shown_.motions.link(arm).state(),
                    .link_detail = shown_.motions.link(arm).detail(),
                    .drives_on = shown_.motions.feedback(arm).drives_on,
-                   .speed_override = shown_.scheduler.speed().arm(arm),
-                   .effective_speed_override = shown_.scheduler.speed().effective(arm)};
-  if (const auto& stop = shown_.scheduler.stop_of(arm)) status.stop_cause = stop->cause;
+                   .speed_override = shown_.scheduler.state().speed.arm(arm),
+                   .effective_speed_override = shown_.scheduler.state().speed.effective(arm)};
+  if (const auto& stop = shown_.scheduler.state().arms.stop_of(arm))
+    status.stop_cause = stop->cause;
   status.deviation_max_rad = std::max(deviation_max_rad, status.deviation_rad);
   status.job = shown_.scheduler.occupant(arm);
   if (status.job) {

@@ -158,7 +158,7 @@ const Step* Executive::Impl::lost_motion(const Task& task) const {
 void Executive::Impl::tell_stop(Task& task, JobId next) {
   if (!task.began_at) return;  // the motion says so itself
   for (const ArmId arm : scheduler_.find(next)->trajectory->arms()) {
-    const auto& stop = scheduler_.stop_of(arm);
+    const auto& stop = scheduler_.state().arms.stop_of(arm);
     if (!stop) continue;
     Wait wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
     if (task.waits_on.size() == 1 && task.waits_on.front().same_cause(wait)) return;
@@ -181,7 +181,7 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
   if (!scheduler_.has_turn_for_actions(*present.job) || !is_recorded(task)) return false;
   TrajectoryPtr way;
   if (const auto* gripper = std::get_if<GripperStepRequest>(&present.request.what)) {
-    auto made = gripper_motion(*gripper, *cell_, scheduler_.rest());
+    auto made = gripper_motion(*gripper, *cell_, scheduler_.state().arms.rest());
     if (!made) {
       fail_task(task, Reason::step_failed, step_text(task) + text_of(made.error()));
       return true;

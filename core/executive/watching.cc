@@ -49,7 +49,7 @@ void Executive::Impl::watch() {
   const Motions& motions = execution_.motions();
   Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
   for (ArmId arm : all_arms(*cell_)) {
-    seen.arms[arm.index()].is_stopped = scheduler_.stop_of(arm).has_value();
+    seen.arms[arm.index()].is_stopped = scheduler_.state().arms.stop_of(arm).has_value();
   }
   std::vector<MonitorFinding> found = watch_.check_premises(seen);
   std::vector<bool> moving;
@@ -71,7 +71,8 @@ void Executive::Impl::watch() {
   }
   act_on(found);
   for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().rests_elsewhere(arm) || scheduler_.is_unlocated(arm)) locate(arm);
+    if (watch_.premises().rests_elsewhere(arm) || scheduler_.state().arms.is_unlocated(arm))
+      locate(arm);
   }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
@@ -104,7 +105,8 @@ void Executive::Impl::watch_links() {
       case Kind::connected:
       case Kind::back:
         if (change.kind == Kind::connected) locate(change.arm);
-        if (const auto& stop = scheduler_.stop_of(change.arm); stop && stop->until_connected) {
+        if (const auto& stop = scheduler_.state().arms.stop_of(change.arm);
+            stop && stop->until_connected) {
           resume({change.arm});
           break;
         }
@@ -131,9 +133,10 @@ void Executive::Impl::locate(ArmId arm) {
   const ArmLink& link = execution_.motions().link(arm);
   if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
   const Eigen::VectorXd off =
-      link.feedback().measured - joints_of(scheduler_.rest(), execution_.motions().joints(arm));
+      link.feedback().measured -
+      joints_of(scheduler_.state().arms.rest(), execution_.motions().joints(arm));
   const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
-  if (is_there && !scheduler_.is_unlocated(arm)) return;
+  if (is_there && !scheduler_.state().arms.is_unlocated(arm)) return;
   step(Located{arm, link.feedback().measured});
 }
 
