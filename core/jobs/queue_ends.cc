@@ -33,7 +33,7 @@ std::vector<ArmId> open_ends(const State& state) {
     const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
     if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
   }
-  for (const Step& step : state.jobs.of(state.jobs.undecided())) {
+  for (const Step& step : state.jobs.of(state.jobs.active().undecided())) {
     if (!step.goal) continue;
     for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
   }

@@ -79,9 +79,9 @@ bool holds_one_ahead(const State& state, const Step& step) {
 
 std::optional<JobId> may_go_first(const State& state, const Step& step) {
   if (step.goal || step.in<Queued>() == nullptr) return std::nullopt;
-  if (state.jobs.undecided().empty()) return std::nullopt;
+  if (state.jobs.active().undecided().empty()) return std::nullopt;
   const auto& arms = step.trajectory->arms();
-  for (const Step& open : state.jobs.of(state.jobs.undecided())) {
+  for (const Step& open : state.jobs.of(state.jobs.active().undecided())) {
     if (!open.has_open_arm() || open.job->turn > step.job->turn) continue;
     if (step.approaches.ahead_of.contains(open.id.job)) continue;
     const bool shares = std::ranges::any_of(open.goal->ways, [&](const GoalWay& way) {

@@ -89,7 +89,8 @@ class StateWriter {
   [[nodiscard]] const State* operator->() const { return &state_; }
   operator const State&() const { return state_; }
 
-  // Owners. What has consequences for other facts is done by Transitions.
+  // Owners, to be changed by their own transitions. What has consequences for other facts is done
+  // by Transitions.
   [[nodiscard]] JobBook& jobs() { return state_.jobs; }
   [[nodiscard]] Lanes& lanes() { return state_.lanes; }
   [[nodiscard]] ArmRests& arms() { return state_.arms; }
@@ -99,6 +100,10 @@ class StateWriter {
   void effect(Effect effect) { effects_.push_back(std::move(effect)); }
   // Announces a job that the scheduler has added.
   void announce(const YieldMove& added) { added_.push_back(added); }
+  // Returns the jobs whose wait explanation is out of date, once.
+  [[nodiscard]] std::set<JobId> take_unexplained() {
+    return state_.jobs.updates_.take_unexplained();
+  }
   // Returns the effects since the last call. What clients see comes first, so that an event is told
   // before its consequences.
   [[nodiscard]] std::vector<Effect> take_effects();

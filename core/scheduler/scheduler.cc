@@ -167,8 +167,8 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
-                             !state_->jobs.has_changed() && state_->version() == version_before &&
-                             !is_due();
+                             !state_->jobs.updates().has_changed() &&
+                             state_->version() == version_before && !is_due();
   if (only_progress) return state_.take_effects();
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);

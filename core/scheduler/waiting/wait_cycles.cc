@@ -38,7 +38,7 @@ bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
 
 void untell(Transitions& state, const WaitCycle& ring) {
   for (JobId id : ring) {
-    if (!state->jobs.is_active(id)) continue;
+    if (!state->jobs.active().contains(id)) continue;
     const Step& step = state->jobs.at(id);
     const auto* braking = step.in<Braking>();
     const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
@@ -122,7 +122,7 @@ bool WaitCycles::stands_still(const State& state, const Named& named) const {
   const WaitCycle& ring = named.ring;
   const bool all_stand =
       named.epoch == state.scene_epoch && std::ranges::all_of(ring, [&](JobId id) {
-        return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
+        return state.jobs.active().contains(id) && stands(state, state.jobs.at(id));
       });
   if (!all_stand || named.in_turn.empty()) return all_stand;
   const WaitsFor graph = waits_for(state, ring);

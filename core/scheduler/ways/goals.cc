@@ -186,7 +186,7 @@ Answered answer_of(Transitions& state, const Step& step) {
 bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
-  for (const Step& other : state.jobs.of(state.jobs.undecided())) {
+  for (const Step& other : state.jobs.of(state.jobs.active().undecided())) {
     const bool is_put_off = other.state() == JobState::backlogged;
     if (other.has_open_arm() && !is_put_off && other.job->turn < step.job->turn) ++before;
   }
@@ -224,7 +224,7 @@ std::string why_none(const State& state, const Step& step) {
 
 bool plan_goals(Transitions& state) {
   bool any_failed = false;
-  if (!state->jobs.has_goals()) return any_failed;
+  if (!state->jobs.active().have_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state->cell->arms.size(); ++arm) {
     while (const Step* step = plan_lane(state, ArmId{arm})) {
       state.end(*step, JobState::failed, Reason::no_plan, why_none(state, *step));

@@ -93,7 +93,7 @@ std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId ar
       state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
-  if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return std::nullopt;
+  if (!state.jobs.active().contains(step.job->errand.on_behalf_of)) return std::nullopt;
   const YieldsTried& tried = tried_for(step, arm);
   const YieldsTried& of_all = tried_for(state.jobs.at(step.job->errand.on_behalf_of), arm);
   if (of_all.total >= kYieldsMax) return std::nullopt;
@@ -189,7 +189,7 @@ Question question_about(const State& state, const YieldTrial& move) {
 }
 
 bool is_as_asked(const State& state, const YieldTrial& move) {
-  if (!state.jobs.is_active(move.blocked_job)) return false;
+  if (!state.jobs.active().contains(move.blocked_job)) return false;
   const auto& queue = state.jobs.queues()[move.arm];
   return move.before ? !queue.empty() && queue.front().job == *move.before : queue.empty();
 }
