@@ -47,7 +47,8 @@ class StepFacts {
   void set(const Step& step, ArmId arm, YieldsTried fact) { edit(step).yields[arm] = fact; }
   void set(const Step& step, Approaches fact) { explained(step).approaches = std::move(fact); }
   void set(const Step& step, std::size_t k, GoalWay fact) { explained(step).goal->ways[k] = fact; }
-  void set(const Step& step, std::optional<Detour> fact) { explained(step).goal->detour = fact; }
+  void set(const Step& step, PlanRequests fact) { explained(step).plans = std::move(fact); }
+  void set(const Step& step, std::optional<Detour> fact);
   void set(const Step& step, AnotherWay fact);
   void set(const Step& step, Choice fact) { changed(step).choice = std::move(fact); }
   void set(const Step& step, const Starvation& fact) { changed(step).starvation = fact; }

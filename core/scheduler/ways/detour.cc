@@ -75,7 +75,7 @@ void ask(Transitions& state, const Step& step, Detour detour) {
       .at = detour.request.beside,
       .seed = step.id.job.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
       .budget = kDetourBudget};
-  detour.request = send(state, step, std::move(detour.request), std::move(question));
+  detour.request = send(state, step, ForDetour{}, std::move(detour.request), std::move(question));
   state.jobs().set(step, std::move(detour));
 }
 
@@ -149,8 +149,6 @@ bool gives_detour_up(Transitions& state, const Step& step) {
 
 void take_detour(Transitions& state, const Step& step, const PlanMade& answer) {
   Detour detour = *step.goal->detour;
-  detour.request.question.reset();
-  state.jobs().set(step, detour);
   if (!may_go_round(step)) return;
   const bool fits = answer.trajectory && detour.best &&
                     detour.request.asked_at >= state->scene_epoch &&

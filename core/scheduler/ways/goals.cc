@@ -114,7 +114,7 @@ void ask(Transitions& state, const Step& step, std::size_t which, const Configur
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
-  way.request = send(state, step, std::move(way.request), std::move(question));
+  way.request = send(state, step, ForGoal{which}, std::move(way.request), std::move(question));
   state.jobs().set(step, which, std::move(way));
 }
 
@@ -129,7 +129,7 @@ enum class Answered {
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(Transitions& state, const Step& step, std::size_t which) {
   const GoalWay& way = step.goal->ways[which];
-  if (way.request.question) return Answered::not_yet;
+  if (step.plans.is_open(ForGoal{which})) return Answered::not_yet;
   const auto at = at_its_turn(state, step, way);
   if (!at) return Answered::not_asked;
   if (fits(state, way, *at)) {
@@ -245,7 +245,6 @@ void forget_plan(Transitions& state, const Step& step) {
 void take_goal_plan(Transitions& state, const Step& step, std::size_t which,
                     const PlanMade& answer) {
   GoalWay way = step.goal->ways[which];
-  way.request.question.reset();
   if (answer.trajectory) {
     way.is_planned = true;
     way.goes_through = answer.goes_through;

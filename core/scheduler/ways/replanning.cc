@@ -49,7 +49,7 @@ PlanQuestion question_about(const State& state, const Step& step) {
   const Configuration at = rest_after_admitted(state, &step);
   PlanQuestion question{.goal = goal_of(state, step, at),
                         .at = at,
-                        .seed = step.id.job.value() + kSeedsOfOneTry * step.asking.plans};
+                        .seed = step.id.job.value() + kSeedsOfOneTry * step.plans.sent()};
   if (step.another_way->cause != AnotherWay::Cause::client)
     return question;  // they are what it shall pass
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
@@ -74,9 +74,10 @@ bool fits(const State& state, const Step& step) {
 }
 
 void ask_at_rest(Transitions& state, const Step& step) {
-  if (!step.is_waiting() || step.another_way->request.question) return;
+  if (!step.is_waiting() || step.plans.is_open(ForReplan{})) return;
   AnotherWay other = *step.another_way;
-  other.request = send(state, step, std::move(other.request), question_about(state, step));
+  other.request =
+      send(state, step, ForReplan{}, std::move(other.request), question_about(state, step));
   state.jobs().set(step, std::move(other));
 }
 
@@ -114,8 +115,6 @@ void plan_other_ways(Transitions& state) {
 
 bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer) {
   AnotherWay other = *step.another_way;
-  other.request.question.reset();
-  state.jobs().set(step, other);
   if (!other.is_open || !step.is_waiting()) return false;  // if it is braking, it asks again
   const bool is_fit = fits(state, step);
   if (!is_fit && other.request.tries < kReplansMax) {

@@ -231,17 +231,16 @@ void note_tried(Transitions& state, const YieldTrial& move, bool goes) {
 
 void ask_for_way_aside(Transitions& state, const YieldTrial& move) {
   const Step& step = state->jobs.at(move.blocked_job);
+  if (step.plans.is_open(ForRetreat{move.arm})) return;
   YieldsTried tried = tried_for(step, move.arm);
-  if (tried.planned.request.question) return;
   tried.from = state->arms.came_by(move.arm);
   tried.next = move.index;
   tried.planned = {};
-  tried.planned.request =
-      send(state, step, {},
-           {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
-            .at = rest_after_admitted(state),
-            .seed = step.id.job.value()});
   state.jobs().set(step, move.arm, std::move(tried));
+  (void)send(state, step, ForRetreat{move.arm}, {},
+             {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
+              .at = rest_after_admitted(state),
+              .seed = step.id.job.value()});
 }
 
 void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer) {
