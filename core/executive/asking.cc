@@ -166,7 +166,9 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
       walk(trial, scene, done);
     };
     const auto cancelled = std::make_shared<std::atomic<bool>>(false);
-    if (questions_.service().draft({plan->question, scene, cancelled, answered})) return;
+    if (questions_.service().draft(
+            {plan->question, scene, cancelled, answered, plan->known.has_value()}))
+      return;
     return done(failure(too_many_open("plans")));
   }
   done(trial->outcome());

@@ -29,7 +29,8 @@ std::vector<Effect> StateWriter::take_effects() {
 
 void StateWriter::change_scene() {
   ++state_.changes_;
-  state_.scene_epoch = state_.version();
+  state_.around.scene_since = state_.version();
+  state_.around.refused_plans = {};
   state_.lanes.forget_passages();
 }
 
@@ -48,7 +49,7 @@ void StateWriter::set_speed(const SetSpeed& input) {
 }
 
 void StateWriter::set_signal(const SignalChanged& input) {
-  const SignalChanged before = std::exchange(state_.signals[input.signal], input);
+  const SignalChanged before = std::exchange(state_.around.signals[input.signal], input);
   for (const Step& step : state_.jobs.of(state_.jobs.active())) {
     const auto& wanted = step.job->terms.start_when;
     if (!wanted || wanted->signal != input.signal) continue;

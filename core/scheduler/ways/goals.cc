@@ -21,7 +21,8 @@ bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.
 bool fits(const State& state, const GoalWay& way, const Configuration& at) {
-  const bool is_asked = way.request.beside.size() != 0 && way.request.asked_at >= state.scene_epoch;
+  const bool is_asked =
+      way.request.beside.size() != 0 && way.request.asked_at >= state.around.scene_since;
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 
@@ -249,8 +250,8 @@ void take_goal_plan(Transitions& state, const Step& step, std::size_t which,
     way.is_planned = true;
     way.goes_through = answer.goes_through;
   } else {
-    way.refusal = answer.why;
-    way.stands_in = answer.stands_in;
+    way.refusal = answer.none.why;
+    way.stands_in = answer.none.stands_in;
   }
   state.jobs().set(step, which, std::move(way));
   if (answer.trajectory) state.take_plan(step, which, answer.trajectory);

@@ -17,7 +17,11 @@ PathRequest send(Transitions& state, const Step& step, PlanPurpose purpose, Path
   PlanRequests plans = step.plans;
   const std::uint64_t number = plans.open({purpose, question, request.asked_at});
   state.jobs().set(step, std::move(plans));
-  state.effect(PlanMotion{step.id, number, std::move(question)});
+  const RefusedPlans& refused = state->around.refused_plans;
+  PlanMotion asked{step.id, number, std::move(question)};
+  if (const NoPlan* known = refused.find(*state->cell, asked.question)) asked.known = *known;
+  asked.question.has_no_way_past = refused.has_no_way_past(*state->cell, asked.question);
+  state.effect(std::move(asked));
   return request;
 }
 
@@ -28,6 +32,7 @@ void take_plan(Transitions& state, const PlanMade& answer, WaitCycles& cycles) {
   const auto request = plans.close(answer.question);
   if (!request) return;
   state.jobs().set(*step, std::move(plans));
+  if (request->asked_at >= state->around.scene_since) state.learn(request->question, answer);
   const PlanPurpose& purpose = request->purpose;
   if (const auto* goal = std::get_if<ForGoal>(&purpose)) {
     take_goal_plan(state, *step, goal->way, answer);

@@ -70,7 +70,7 @@ bool fits(const State& state, const Step& step) {
   const auto& joints = state.cell->arm(arm_of(step)).joints;
   const Eigen::VectorXd from = joints_of(other.request.beside, joints);
   const Eigen::VectorXd stands = joints_of(rest_after_admitted(state, &step), joints);
-  return other.request.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
+  return other.request.asked_at >= state.around.scene_since && is_same_place(state, from, stands);
 }
 
 void ask_at_rest(Transitions& state, const Step& step) {
@@ -126,8 +126,8 @@ bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer
   if (is_taken) {
     ++other.done;
   } else {
-    other.refusal =
-        is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
+    other.refusal = is_fit ? answer.none.why
+                           : "plan was out of date: the arm had moved or the scene had changed";
   }
   state.jobs().set(step, other);
   if (is_taken) {
@@ -155,7 +155,7 @@ bool may_go_around(const State& state, const Step& step) {
   if (!step.is_waiting() && !step.pausing()) return false;
   if (!step.another_way) return true;
   const bool is_as_tried =
-      step.another_way->request.asked_at >= state.scene_epoch &&
+      step.another_way->request.asked_at >= state.around.scene_since &&
       is_same_place(state, step.another_way->request.beside, rest_after_admitted(state, &step));
   return step.another_way->request.tries < kReplansMax && !is_as_tried;
 }
