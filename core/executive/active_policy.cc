@@ -12,7 +12,7 @@ std::string Executive::ActivePolicy::name() const {
 }
 
 Result<void> Executive::ActivePolicy::change(const std::string& name) {
-  executive_.note({ExecutiveInput::PolicyChanged{name}});
+  executive_.clock_.note({ExecutiveInput::PolicyChanged{name}});
   auto policy = make_policy(name, *executive_.cell_);
   if (!policy) {
     policy.error().front().pointer = "/policy";

@@ -19,7 +19,7 @@ class Drawings {
   Drawings(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& judges)
       : scheduler_(scheduler), jobs_(jobs), judges_(judges) {}
 
-  // Two jobs by key, and the scene and time of the request (Executive::diagram()).
+  // Two jobs by key, and the scene and time of the request (Inquiries::diagram()).
   struct Asked {
     std::string key_a, key_b;
     VersionedScene in;

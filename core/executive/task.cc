@@ -74,6 +74,11 @@ JobId TaskBook::told(JobId job) const {
   return id == id_of_motion_.end() ? job : id->second;
 }
 
+JobId TaskBook::present_motion(JobId job) const {
+  const Task* task = find(job);
+  return task == nullptr ? job : task->next_motion().value_or(job);
+}
+
 void TaskBook::set_motion(Task& task, std::size_t step, JobId motion) {
   task.steps[step].job = motion;
   id_of_motion_.emplace(motion, task.id);

@@ -4,8 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "core/executive/executive_impl.h"
+#include "core/executive/arms_of.h"
 #include "core/executive/task_intake.h"
+#include "core/executive/task_run.h"
 #include "core/executive/task_view.h"
 #include "core/jobs/waits.h"
 
@@ -37,7 +38,19 @@ TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePo
 
 }  // namespace
 
-JobView Executive::Impl::accept_task(PreparedJob prepared) {
+TaskRun::TaskRun(const JobModules& modules, Calls calls)
+    : cell_(modules.cell),
+      scheduler_(modules.scheduler),
+      tasks_(modules.tasks),
+      jobs_(modules.jobs),
+      execution_(modules.execution),
+      clock_(modules.clock),
+      publisher_(modules.publisher),
+      intake_(modules.intake),
+      actions_(modules, [this] { go_on_with_tasks(); }),
+      calls_(std::move(calls)) {}
+
+JobView TaskRun::accept_task(PreparedJob prepared) {
   const JobId id = scheduler_.next_job();
   JobLabel label{prepared.key, prepared.name};
   if (label.key.empty()) label.key = jobs_.free_key(id);
@@ -45,8 +58,7 @@ JobView Executive::Impl::accept_task(PreparedJob prepared) {
   return publisher_.view(id);
 }
 
-void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
-                                 bool is_held_over) {
+void TaskRun::enter_task(PreparedJob prepared, JobId id, JobLabel label, bool is_held_over) {
   label.bytes = prepared.bytes();
   jobs_.add(id, std::move(label));
   Task made{.id = id, .steps = {}};
@@ -72,7 +84,7 @@ void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
 
 // Goes on with each task that has its turn: the first of the queue of an arm, or one whose last
 // motion has ended.
-void Executive::Impl::go_on_with_tasks() {
+void TaskRun::go_on_with_tasks() {
   if (tasks_.empty() || tasks_are_busy_) return;
   tasks_are_busy_ = true;
   std::set<JobId> told;
@@ -98,7 +110,7 @@ void Executive::Impl::go_on_with_tasks() {
 }
 
 // Returns true if the task has advanced.
-bool Executive::Impl::go_on(Task& task) {
+bool TaskRun::go_on(Task& task) {
   if (task.end || task.awaits_record) return false;
   if (std::exchange(task.is_present_done, false)) {
     task.since.reset();
@@ -126,7 +138,7 @@ bool Executive::Impl::go_on(Task& task) {
   if (!task.began_at) task.began_at = clock_.now;
   const std::vector<Wait> waited = std::exchange(task.waits_on, {});
   if (!task.since) task.since = clock_.now;
-  const auto done = act(task, present.request);
+  const auto done = actions_.act(task, present.request);
   if (!done) {
     fail_task(task, Reason::step_failed, step_text(task) + text_of(done.error()));
     return true;
@@ -145,7 +157,7 @@ bool Executive::Impl::go_on(Task& task) {
 }
 
 // Returns the first motion to come that has ended without success: it was in a deadlock.
-const Step* Executive::Impl::lost_motion(const Task& task) const {
+const Step* TaskRun::lost_motion(const Task& task) const {
   for (std::size_t i = task.at + 1; i < task.steps.size(); ++i) {
     const auto& motion = task.steps[i].job;
     const Step* step = motion ? scheduler_.find(*motion) : nullptr;
@@ -155,7 +167,7 @@ const Step* Executive::Impl::lost_motion(const Task& task) const {
 }
 
 // Publishes that the task waits for a resume, if an arm of its next motion is stopped.
-void Executive::Impl::tell_stop(Task& task, JobId next) {
+void TaskRun::tell_stop(Task& task, JobId next) {
   if (!task.began_at) return;  // the motion says so itself
   for (const ArmId arm : scheduler_.find(next)->trajectory->arms()) {
     const auto& stop = scheduler_.state().arms.stop_of(arm);
@@ -167,7 +179,7 @@ void Executive::Impl::tell_stop(Task& task, JobId next) {
   }
 }
 
-bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
+bool TaskRun::go_on_with_motion(Task& task, TaskStep& present) {
   const Step& motion = *scheduler_.find(*present.job);
   if (motion.has_ended()) {
     if (motion.state() == JobState::succeeded) {
@@ -188,7 +200,7 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
     }
     way = *std::move(made);
   }
-  set_touch(task, present.touch);
+  actions_.set_touch(task, present.touch);
   present.is_awaited = false;
   step(ActionsDone{*present.job, std::move(way)});
   return true;
@@ -197,7 +209,7 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
 // ---- Ends ----
 
 // The task has ended. Its motions that have not begun end with it.
-void Executive::Impl::end_task(Task& task, TaskEnd end) {
+void TaskRun::end_task(Task& task, TaskEnd end) {
   if (task.end) return;
   task.end = std::move(end);
   task.waits_on.clear();
@@ -206,17 +218,16 @@ void Executive::Impl::end_task(Task& task, TaskEnd end) {
     const Step* step = scheduler_.find(motion);
     if (step != nullptr && !step->has_ended()) this->step(Cancel{motion});
   }
-  set_touch(task, {});
-  count_.end_of_a_job(clock_.now);
+  actions_.set_touch(task, {});
   tell_task(task.id);
-  forget_oldest(task.id);
+  calls_.ended(task.id);
 }
 
-void Executive::Impl::fail_task(Task& task, Reason reason, std::string detail) {
+void TaskRun::fail_task(Task& task, Reason reason, std::string detail) {
   end_task(task, {JobState::failed, reason, std::move(detail), clock_.now});
 }
 
-void Executive::Impl::cancel_task(Task& task) {
+void TaskRun::cancel_task(Task& task) {
   const auto next = task.next_motion();
   const Step* motion = next ? scheduler_.find(*next) : nullptr;
   const bool is_moving = motion != nullptr && motion->has_authority();
@@ -226,10 +237,10 @@ void Executive::Impl::cancel_task(Task& task) {
                   clock_.now});
 }
 
-void Executive::Impl::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
+void TaskRun::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
 
 // A motion of a task has changed.
-void Executive::Impl::motion_changed(Task& task, JobId motion) {
+void TaskRun::motion_changed(Task& task, JobId motion) {
   const Step& step = *scheduler_.find(motion);
   if (step.times.started_at && !task.began_at) task.began_at = step.times.started_at;
   if (task.end) return;
@@ -241,27 +252,25 @@ void Executive::Impl::motion_changed(Task& task, JobId motion) {
   if (task.next_motion() == motion) tell_task(task.id);
 }
 
-bool Executive::Impl::any_stopped(const Task& task) const {
+bool TaskRun::any_stopped(const Task& task) const {
   const auto& arms = scheduler_.find(task.motions().back())->trajectory->arms();
   return std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stopped(arm); });
 }
 
 // The first action is done only when it is on disk that the task has begun: after a restart,
 // nothing is done twice.
-bool Executive::Impl::is_recorded(const Task& task) {
+bool TaskRun::is_recorded(const Task& task) {
   if (task.began_at) return true;
   const auto written = [this](JobId id) {
-    note({ExecutiveInput::StartWritten{only_step(id)}});
+    clock_.note({ExecutiveInput::StartWritten{only_step(id)}});
     step(StartRecorded{only_step(id)});
     go_on_with_tasks();
   };
   return execution_.record_start(task.id, written);
 }
 
-void Executive::Impl::wake_at(TimePoint when) { task_wakes_at_ = std::min(task_wakes_at_, when); }
-
 // A task that has begun is interrupted at its present step, even if the next motion has not begun.
-void Executive::Impl::interrupt(bool keeps_waiting) {
+void TaskRun::interrupt(bool keeps_waiting) {
   const bool was_busy = std::exchange(tasks_are_busy_, true);
   for (Task* task : tasks_.begun()) {
     TaskEnd end{JobState::interrupted, Reason::server_restart,

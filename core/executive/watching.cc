@@ -1,9 +1,9 @@
-// The monitor and the links: what the executive observes, and how it acts on it.
+#include "core/executive/watching.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "core/executive/arms_of.h"
-#include "core/executive/executive_impl.h"
 #include "core/executive/observe.h"
 #include "core/trajectory/set_joints.h"
 
@@ -24,11 +24,26 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 }  // namespace
 
-// A motion that ended away from its goal has failed.
-void Executive::Impl::take(const MotionReport& report) {
+ArmWatch::ArmWatch(const Watched& watched, Calls calls)
+    : cell_(watched.cell),
+      scheduler_(watched.scheduler),
+      scene_(watched.scene),
+      execution_(watched.execution),
+      clock_(watched.clock),
+      publisher_(watched.publisher),
+      calls_(std::move(calls)),
+      watch_(cell_, scene_.scene()),
+      links_(cell_->arms.size()) {}
+
+void ArmWatch::tick() {
+  watch_links();
+  if (clock_.monitored && watch_.is_due(clock_.now)) watch();
+}
+
+void ArmWatch::take(const MotionReport& report) {
   const Step* moved = scheduler_.find(report.step.job);
   const bool is_watched = clock_.monitored && moved != nullptr;
-  if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
+  if (report.kind != MotionReport::Kind::finished || !is_watched) return calls_.step(report);
   const Motions& motions = execution_.motions();
   std::vector<MonitorFinding> found;
   for (const ArmId arm : moved->trajectory->arms()) {
@@ -36,15 +51,15 @@ void Executive::Impl::take(const MotionReport& report) {
         watch_.premises().finished(arm, *moved->trajectory, motions.measured(), clock_.now);
     if (early) found.push_back(std::move(*early));
   }
-  if (found.empty()) return step(report);
+  if (found.empty()) return calls_.step(report);
   MotionReport failed = report;
   failed.kind = MotionReport::Kind::faulted;
   failed.detail = sentence(found.front(), *cell_);
-  step(failed);
+  calls_.step(failed);
   act_on(found);
 }
 
-void Executive::Impl::watch() {
+void ArmWatch::watch() {
   publisher_.tell_watch();
   const Motions& motions = execution_.motions();
   Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
@@ -58,8 +73,8 @@ void Executive::Impl::watch() {
     execution_.gate().leaves_path(arm, watch_.premises().deviation(arm));
   }
   if (watch_.look(seen.measured, moving, clock_.now)) {
-    count_.look(watch_.near().apart);
-    count_.look(watch_.near().at_mount);
+    clock_.count.look(watch_.near().apart);
+    clock_.count.look(watch_.near().at_mount);
     found.insert(found.end(), watch_.found().begin(), watch_.found().end());
   }
   std::vector<bool> stopping(cell_->arms.size(), false);
@@ -80,34 +95,35 @@ void Executive::Impl::watch() {
 // An arm whose link is lost comes to rest by itself, within its authority. It stays stopped until
 // it is resumed, also when the link is back. The first connection ends only the stop that waited
 // for it: an arm that was stopped, or that moved for another server, does not move before a resume.
-void Executive::Impl::watch_links() {
+void ArmWatch::watch_links() {
   for (const LinkWatch::Change& change : links_.look(execution_.motions())) {
     using Kind = LinkWatch::Change::Kind;
     const std::string& arm = cell_->arm(change.arm).name;
     switch (change.kind) {
       case Kind::waits:
         tell_unlocated(change.arm);
-        step(Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
+        calls_.step(
+            Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
         publisher_.tell(
             Alert{Alert::Level::info, arm + " waits for its controller: " + change.detail},
             clock_.now);
         break;
       case Kind::in_use:
         tell_unlocated(change.arm);
-        stop({change.arm}, "its controller served another server: " + change.detail);
+        calls_.stop(change.arm, "its controller served another server: " + change.detail);
         break;
       case Kind::lost:
-        stop({change.arm}, "link lost: " + change.detail);
+        calls_.stop(change.arm, "link lost: " + change.detail);
         break;
       case Kind::stopped:
-        stop({change.arm}, "its controller stopped the arm by itself");
+        calls_.stop(change.arm, "its controller stopped the arm by itself");
         break;
       case Kind::connected:
       case Kind::back:
         if (change.kind == Kind::connected) locate(change.arm);
         if (const auto& stop = scheduler_.state().arms.stop_of(change.arm);
             stop && stop->until_connected) {
-          resume({change.arm});
+          calls_.resume(change.arm);
           break;
         }
         publisher_.tell(Alert{Alert::Level::info, "arm " + arm +
@@ -120,16 +136,15 @@ void Executive::Impl::watch_links() {
 }
 
 // Tells the scheduler that the arm may be anywhere.
-void Executive::Impl::tell_unlocated(ArmId arm) {
+void ArmWatch::tell_unlocated(ArmId arm) {
   std::vector<ArmId> may_meet;
   for (const ArmId other : all_arms(*cell_)) {
     if (other != arm && !scene_.scene()->out_of_reach(arm, other)) may_meet.push_back(other);
   }
-  step(Unlocated{arm, std::move(may_meet)});
+  calls_.step(Unlocated{arm, std::move(may_meet)});
 }
 
-// Tells the scheduler where an arm at rest really is, if that is not where it came to rest.
-void Executive::Impl::locate(ArmId arm) {
+void ArmWatch::locate(ArmId arm) {
   const ArmLink& link = execution_.motions().link(arm);
   if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
   const Eigen::VectorXd off =
@@ -137,14 +152,14 @@ void Executive::Impl::locate(ArmId arm) {
       joints_of(scheduler_.state().arms.rest(), execution_.motions().joints(arm));
   const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
   if (is_there && !scheduler_.state().arms.is_unlocated(arm)) return;
-  step(Located{arm, link.feedback().measured});
+  calls_.step(Located{arm, link.feedback().measured});
 }
 
 // Publishes the findings and stops their arms, each with the first finding that names it as cause.
-void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
+void ArmWatch::act_on(const std::vector<MonitorFinding>& found) {
   std::vector<Stop::StoppedArm> stopped;
   for (const MonitorFinding& finding : found) {
-    if (!finding.stops.empty()) count_.monitor_stop();
+    if (!finding.stops.empty()) clock_.count.monitor_stop();
     MonitorEvent event = event_of(finding, *cell_);
     for (const ArmId arm : finding.stops) {
       if (std::ranges::find(stopped, arm, &Stop::StoppedArm::arm) != stopped.end()) continue;
@@ -158,7 +173,7 @@ void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
   }
   if (stopped.empty()) return;
   const std::size_t count = stopped.size();
-  step(Stop(std::move(stopped)));
+  calls_.step(Stop(std::move(stopped)));
   publisher_.tell_monitor_stop(count);
 }
 

@@ -1,6 +1,7 @@
 // Results of /check for jobs that still need a plan, compared with the outcome when submitted.
 #include <gmock/gmock.h>
 
+#include "core/executive/inquiries.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -19,10 +20,11 @@ class CheckedGoals : public ::testing::TestWithParam<std::string> {
   void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
   CheckView check(JobRequest request) {
     std::optional<CheckView> said;
-    cell->simulation->executive().check(std::move(request), [&](Result<CheckView> answer) {
-      ASSERT_TRUE(answer) << answer.error().front().detail;
-      said = *answer;
-    });
+    cell->simulation->executive().inquiries().check(
+        std::move(request), [&](Result<CheckView> answer) {
+          ASSERT_TRUE(answer) << answer.error().front().detail;
+          said = *answer;
+        });
     const TimePoint limit = cell->simulation->now() + 5s;
     while (!said && cell->simulation->now() < limit) cell->simulation->tick();
     EXPECT_TRUE(said) << "no answer";

@@ -2,6 +2,7 @@
 // ARMLOOM_SEEDS=500 runs more.
 #include <gtest/gtest.h>
 
+#include "core/executive/inquiries.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
 #include "test/scenarios/star.h"
@@ -174,8 +175,8 @@ TEST(Speed, CheckPredictsTheStartAtTheOverride) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.run_until(at(1s));
   std::optional<CheckView> check;
-  cell.simulation->executive().check(slide("y", -1, 1, 4),
-                                     [&](const Result<CheckView>& made) { check = *made; });
+  cell.simulation->executive().inquiries().check(
+      slide("y", -1, 1, 4), [&](const Result<CheckView>& made) { check = *made; });
   cell.run_until(at(2s));
   ASSERT_TRUE(check && check->earliest_start_s);
   cell.submit(slide("y", -1, 1, 4, "second"));
