@@ -7,7 +7,7 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/arms_of.h"
-#include "core/executive/inquiries.h"
+#include "core/executive/inquiry_desk.h"
 #include "core/executive/timeline.h"
 #include "core/trajectory/set_joints.h"
 
@@ -128,19 +128,7 @@ Problem too_many_open(const std::string& what) {
           "too many " + what + " are open; retry in a moment"};
 }
 
-Inquiries::Inquiries(const Asked& asked, OpenQuestions& questions)
-    : cell_(asked.cell),
-      scheduler_(asked.scheduler),
-      tasks_(asked.tasks),
-      jobs_(asked.jobs),
-      scene_(asked.scene),
-      intake_(asked.intake),
-      touch_left_(asked.touch_left),
-      clock_(asked.clock),
-      publisher_(asked.publisher),
-      questions_(questions) {}
-
-void Inquiries::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+void InquiryDesk::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   JobIntake::Ahead ahead = intake_.ahead();
   Configuration at = ahead.rest;
   auto prepared = intake_.prepare(std::move(request), ahead);
@@ -160,11 +148,13 @@ void Inquiries::check(JobRequest request, std::function<void(Result<CheckView>)>
        scene_.scene(), judged);
 }
 
-Trial::Open Inquiries::open_now() const { return {questions_.asked(), questions_.plans().open()}; }
+Trial::Open InquiryDesk::open_now() const {
+  return {questions_.asked(), questions_.plans().open()};
+}
 
 // As admission would, in this instant.
-void Inquiries::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
-                     std::function<void(TrialEnd)> done) {
+void InquiryDesk::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
+                       std::function<void(TrialEnd)> done) {
   if (auto question = trial->next()) {
     const auto answered = [this, trial, scene, done](Verdict verdict) {
       trial->answer(std::move(verdict));
@@ -188,14 +178,14 @@ void Inquiries::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
 }
 
 // Returns the arms that may leave their places before a motion that is planned now.
-std::vector<ArmId> Inquiries::may_move(const std::vector<ArmId>& staying) const {
+std::vector<ArmId> InquiryDesk::may_move(const std::vector<ArmId>& staying) const {
   std::vector<ArmId> arms = all_arms(*cell_);
   std::erase_if(
       arms, [&](ArmId arm) { return std::ranges::count(staying, arm) > 0 || !jobs_.has_job(arm); });
   return arms;
 }
 
-struct Inquiries::OpenInquiry {
+struct InquiryDesk::OpenInquiry {
   PlanInquiry inquiry;
   std::vector<PlanQuestion> questions;
   std::shared_ptr<std::atomic<bool>> cancelled;
@@ -205,8 +195,8 @@ struct Inquiries::OpenInquiry {
   RefusedArms refused = {};
 };
 
-void Inquiries::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-                     std::function<void(Result<PlanOutcome>)> done) {
+void InquiryDesk::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                       std::function<void(Result<PlanOutcome>)> done) {
   auto questions = questions_of(*cell_, inquiry, predicted_rest(scheduler_.state()));
   if (!questions) return done(failure(std::move(questions.error())));
   for (PlanQuestion& question : *questions) question.may_move = may_move({question.goal.arm});
@@ -215,7 +205,7 @@ void Inquiries::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> can
 }
 
 // One arm after the other.
-void Inquiries::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
+void InquiryDesk::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   if (inquiry->next == inquiry->questions.size()) {
     return inquiry->done(first_of(inquiry->inquiry, std::move(inquiry->plans), inquiry->refused));
   }
@@ -243,17 +233,17 @@ void Inquiries::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   inquiry->done(failure(too_many_open("plans")));
 }
 
-void Inquiries::diagram(const std::string& key_a, const std::string& key_b,
-                        std::function<void(Result<DiagramView>)> done) {
+void InquiryDesk::diagram(const std::string& key_a, const std::string& key_b,
+                          std::function<void(Result<DiagramView>)> done) {
   questions_.drawings().draw({key_a, key_b, scene_.now(), clock_.now}, std::move(done));
 }
 
-TrajectoryPtr Inquiries::trajectory(const std::string& key) const {
+TrajectoryPtr InquiryDesk::trajectory(const std::string& key) const {
   const auto id = jobs_.find(key);
   return id ? scheduler_.find(tasks_.present_motion(*id))->trajectory : nullptr;
 }
 
-TimelineView Inquiries::timeline() const {
+TimelineView InquiryDesk::timeline() const {
   return {scheduler_.timeline(clock_.now), scheduler_.policy().lookahead.horizon,
           publisher_.board()->read()};
 }

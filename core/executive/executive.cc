@@ -101,7 +101,7 @@ Snapshot Executive::snapshot(std::size_t ended_max) const {
   for (const auto& job : status.jobs_with_ended(ended_max)) snapshot.jobs.push_back(*job);
   return snapshot;
 }
-std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
+std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms().views(); }
 TimePoint Executive::now() const { return impl_->clock_.now; }
 bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }

@@ -26,7 +26,7 @@
 namespace armloom {
 
 class StatusBoard;
-class Inquiries;
+struct TimelineView;
 
 // Computes verdicts, plans and diagrams. Its functions are called on the strand, and must call
 // `done` exactly once, on the strand.
@@ -178,6 +178,39 @@ struct DiagramView {
   std::vector<Layer> layers;
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
+};
+
+// What-if questions of clients, and views that are made on request. They change nothing. Used on
+// the strand.
+class Inquiries {
+ public:
+  virtual ~Inquiries() = default;
+  // Finds what would happen to the job if it were submitted now (Trial). Changes nothing. `done` is
+  // called on the strand, at once or later. Of a job with steps, checks each motion in order: from
+  // where the step before it ends, with what the arms then hold, while all arms of other jobs are
+  // where they are now. Ends with the first that is not free.
+  virtual void check(JobRequest request, std::function<void(Result<CheckView>)> done) = 0;
+  // Plans a trajectory without executing it, around all other arms where they will be after all
+  // accepted jobs. Of several candidate arms, plans for the arm that arrives first. The outcome
+  // includes the result of check(). `done` is called on the strand, at once or later; soon if the
+  // client sets `cancelled`. Problems: wrong names or sizes, broken limits (pointers "/arm",
+  // "/to/...", "/start/..."); unavailable: too many plans are open.
+  virtual void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                    std::function<void(Result<PlanOutcome>)> done) = 0;
+  // Plans all motions of a job with steps without executing them: each from where the step before
+  // it ends, with what the arms then hold. Changes nothing. Otherwise like plan() of a motion.
+  // Problems: those of submit(); unavailable: too many plans are open.
+  virtual void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                    std::function<void(Result<StepsPlan>)> done) = 0;
+  // Draws the coordination diagram of two jobs, active or ended. `done` is called on the strand, at
+  // once or later. Problems: not_found; invalid: the jobs do not have two different arms;
+  // unavailable: too many drawings are open. The pointer "?with" means `key_b`.
+  virtual void diagram(const std::string& key_a, const std::string& key_b,
+                       std::function<void(Result<DiagramView>)> done) = 0;
+  // Returns the job's motion; null if the job is unknown. If the arm is undecided, returns the
+  // motion of the likeliest arm.
+  [[nodiscard]] virtual TrajectoryPtr trajectory(const std::string& key) const = 0;
+  [[nodiscard]] virtual TimelineView timeline() const = 0;
 };
 
 // Runs clock, scheduler, checks, monitor and arms on one strand. Not thread-safe. It owns no thread

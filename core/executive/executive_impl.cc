@@ -52,28 +52,34 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
                   execution_.starts(), scene_, signals_, tasks_},
                  observer),
-      watch_({cell_, scheduler_, scene_, execution_, clock_, publisher_},
-             {.step = [this](const Input& input) { step(input); },
-              .stop = [this](ArmId arm, const std::string& cause) { stop({arm}, cause); },
+      watch_(modules(),
+             {.stop = [this](ArmId arm, const std::string& cause) { stop({arm}, cause); },
               .resume = [this](ArmId arm) { resume({arm}); }}),
       clients_{
           .intake = JobIntake(cell_, {scheduler_, jobs_, tasks_, [this] { return scene_.scene(); }},
                               {options.waiting_max, options.active_bytes_max}),
-          .tasks = TaskRun(job_modules(),
-                           {.step = [this](const Input& input) { step(input); },
-                            .ended = [this](JobId id) { clients_.desk.end(id, clock_.now); }}),
-          .desk = JobDesk(job_modules(), clients_.tasks, questions_,
-                          [this](const Input& input) { step(input); }),
-          .inquiries = Inquiries({cell_, scheduler_, tasks_, jobs_, scene_, clients_.intake,
-                                  clients_.tasks.actions().touch_left(), clock_, publisher_},
-                                 questions_)} {
+          .tasks = TaskRun(modules(), clients_.intake,
+                           [this](JobId id) { clients_.desk.end(id, clock_.now); }),
+          .desk = JobDesk(modules(), clients_.intake, clients_.tasks,
+                          [this](JobId id) { scheduler_.forget(id); }),
+          .inquiries =
+              InquiryDesk(modules(), clients_.intake, clients_.tasks.actions().touch_left())} {
   follow_policy();
   for (const SignalView& signal : signals_.views()) step(input_of(signal));
 }
 
-JobModules Executive::Impl::job_modules() {
-  return {cell_,    scheduler_, tasks_, jobs_,      scene_,
-          signals_, execution_, clock_, publisher_, clients_.intake};
+Modules Executive::Impl::modules() {
+  return {cell_,
+          scheduler_,
+          tasks_,
+          jobs_,
+          scene_,
+          signals_,
+          execution_,
+          questions_,
+          clock_,
+          publisher_,
+          [this](const Input& input) { step(input); }};
 }
 
 // ---- The scheduler and its effects ----
@@ -243,62 +249,6 @@ TimePoint Executive::Impl::settled_until() const {
   if (!settled) return clock_.now;
   return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(),
                    clients_.tasks.actions().wakes_at(), scene_.expiry().at});
-}
-
-// ---- What is asked of all arms ----
-
-void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
-                           Alert::Level level, StopCategory category) {
-  // Whoever asks again and again is heard each time, and told of once.
-  const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
-    const auto& stop = scheduler_.state().arms.stop_of(arm);
-    return !stop || stop->cause != cause;
-  });
-  if (is_news) {
-    publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
-                    clock_.now);
-  }
-  step(Stop{arms, cause});
-  if (category == StopCategory::brake) return;
-  for (const ArmId arm : arms) execution_.brake(arm, category);
-}
-
-std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
-  const auto is_absent = [this](ArmId arm) {
-    const ArmLink::State link = execution_.motions().link(arm).state();
-    return link == ArmLink::State::connecting || link == ArmLink::State::lost;
-  };
-  const auto absent =
-      std::stable_partition(arms.begin(), arms.end(), [&](ArmId arm) { return !is_absent(arm); });
-  const std::vector<ArmId> not_resumed(absent, arms.end());
-  arms.erase(absent, arms.end());
-  if (!not_resumed.empty()) {
-    publisher_.tell(Alert{Alert::Level::warning,
-                          "not resumed: " + names_of(*cell_, not_resumed) +
-                              " (no link to the controller): resume again when the link is up"},
-                    clock_.now);
-  }
-  if (arms.empty()) return not_resumed;
-  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
-  for (const ArmId arm : arms) watch_.locate(arm);
-  for (const ArmId arm : arms) watch_.resumed(arm);
-  step(Resume{arms});
-  return not_resumed;
-}
-
-void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
-  step(SetSpeed{arm, share});
-  std::vector<double> shares;
-  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.state().speed.effective(each));
-  execution_.set_speed(std::move(shares));
-  publisher_.tell_arms(clock_.now);
-}
-
-void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
-                          std::function<void()> done) {
-  clock_.wind_down = {std::move(done), keeps_waiting};
-  clients_.intake.close();
-  stop(all_arms(*cell_), cause, Alert::Level::info);
 }
 
 // ---- The guard ----

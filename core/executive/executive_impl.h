@@ -6,20 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/executive/execution.h"
-#include "core/executive/executive.h"
-#include "core/executive/inquiries.h"
+#include "core/executive/inquiry_desk.h"
 #include "core/executive/job_desk.h"
 #include "core/executive/job_intake.h"
-#include "core/executive/job_register.h"
-#include "core/executive/live_scene.h"
-#include "core/executive/open_questions.h"
-#include "core/executive/publishing.h"
-#include "core/executive/session.h"
-#include "core/executive/signals.h"
+#include "core/executive/modules.h"
 #include "core/executive/task_run.h"
 #include "core/executive/watching.h"
-#include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
@@ -52,7 +44,7 @@ class Executive::Impl {
     JobIntake intake;
     TaskRun tasks;
     JobDesk desk;
-    Inquiries inquiries;
+    InquiryDesk inquiries;
   };
 
   CellPtr cell_;
@@ -69,7 +61,7 @@ class Executive::Impl {
   Clients clients_;
 
  private:
-  [[nodiscard]] JobModules job_modules();
+  [[nodiscard]] Modules modules();
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void carry_out(const Effect& effect);
   void note_aside(const YieldMove& aside);

@@ -15,7 +15,7 @@ Result<JobView> JobDesk::cancel(const std::string& key, std::optional<TimePoint>
   } else if (Task* task = tasks_.find(*id)) {
     task_run_.cancel_task(*task);
   } else {
-    step_(Cancel{*id});
+    step(Cancel{*id});
   }
   return publisher_.view(*id);
 }
@@ -45,9 +45,9 @@ Result<JobView> JobDesk::amend(const std::string& key, JobAmendment amendment) {
   if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
   const Task* task = tasks_.find(*id);
   if (task == nullptr) {
-    step_(Amend{*id, amendment.terms});
+    step(Amend{*id, amendment.terms});
   } else {
-    for (const JobId motion : task->motions()) step_(Amend{motion, amendment.terms});
+    for (const JobId motion : task->motions()) step(Amend{motion, amendment.terms});
   }
   return publisher_.view(*id);
 }
@@ -60,7 +60,7 @@ Result<JobView> JobDesk::replan(const std::string& key) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
                            "job \"" + key + "\" cannot be replanned: " + *why, key});
   }
-  step_(Replan{motion});
+  step(Replan{motion});
   return publisher_.view(*id);
 }
 
@@ -73,7 +73,7 @@ void JobDesk::forget_job(JobId id, const std::string& key) {
   publisher_.forget(id, key);
   const Task* task = tasks_.find(id);
   for (const JobId motion : task == nullptr ? std::vector{id} : task->motions()) {
-    scheduler_.forget(motion);
+    forget_(motion);
   }
   tasks_.forget(id);
 }

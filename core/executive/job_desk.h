@@ -5,17 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "core/executive/open_questions.h"
 #include "core/executive/task_run.h"
 
 namespace armloom {
 
 // Submission of jobs, commands to them, and their ends. Functions as in executive.h.
-class JobDesk {
+class JobDesk : Modules {
  public:
-  // `modules`, `tasks` and `questions` outlive this object.
-  JobDesk(const JobModules& modules, TaskRun& tasks, const OpenQuestions& questions,
-          std::function<void(const Input&)> step);
+  // All arguments outlive this object. `forget` forgets an ended job in the scheduler.
+  JobDesk(const Modules& modules, const JobIntake& intake, TaskRun& tasks,
+          std::function<void(JobId)> forget);
 
   Result<JobView> submit(JobRequest request);
   std::optional<Executive::BatchAnswers> go_on(Executive::Batch& batch);
@@ -39,16 +38,9 @@ class JobDesk {
   void enter(Submit submitted, JobLabel label);
   void forget_job(JobId id, const std::string& key);
 
-  Scheduler& scheduler_;
-  TaskBook& tasks_;
-  JobRegister& jobs_;
-  Execution& execution_;
-  Session& clock_;
-  Publisher& publisher_;
   const JobIntake& intake_;
   TaskRun& task_run_;
-  const OpenQuestions& questions_;
-  std::function<void(const Input&)> step_;
+  std::function<void(JobId)> forget_;
   std::vector<JobId> rolled_back_;  // not ended, or not forgotten yet
 };
 

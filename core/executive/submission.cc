@@ -8,18 +8,9 @@
 
 namespace armloom {
 
-JobDesk::JobDesk(const JobModules& modules, TaskRun& tasks, const OpenQuestions& questions,
-                 std::function<void(const Input&)> step)
-    : scheduler_(modules.scheduler),
-      tasks_(modules.tasks),
-      jobs_(modules.jobs),
-      execution_(modules.execution),
-      clock_(modules.clock),
-      publisher_(modules.publisher),
-      intake_(modules.intake),
-      task_run_(tasks),
-      questions_(questions),
-      step_(std::move(step)) {}
+JobDesk::JobDesk(const Modules& modules, const JobIntake& intake, TaskRun& tasks,
+                 std::function<void(JobId)> forget)
+    : Modules(modules), intake_(intake), task_run_(tasks), forget_(std::move(forget)) {}
 
 Result<JobView> JobDesk::submit(JobRequest request) {
   JobIntake::Ahead ahead = intake_.ahead();
@@ -77,7 +68,7 @@ void JobDesk::enter(Submit submitted, JobLabel label) {
                                                : bytes_of(submitted.alternatives);
   jobs_.add(submitted.job, std::move(label));
   submitted.start_is_recorded = execution_.starts().has_log();
-  step_(submitted);
+  step(submitted);
 }
 
 std::vector<Result<JobView>> JobDesk::restore(std::vector<RestoredJob> jobs) {

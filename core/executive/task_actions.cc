@@ -9,17 +9,8 @@
 
 namespace armloom {
 
-TaskActions::TaskActions(const JobModules& modules, std::function<void()> go_on)
-    : cell_(modules.cell),
-      scheduler_(modules.scheduler),
-      tasks_(modules.tasks),
-      jobs_(modules.jobs),
-      scene_(modules.scene),
-      signals_(modules.signals),
-      execution_(modules.execution),
-      clock_(modules.clock),
-      publisher_(modules.publisher),
-      go_on_(std::move(go_on)) {}
+TaskActions::TaskActions(const Modules& modules, std::function<void()> go_on)
+    : Modules(modules), go_on_(std::move(go_on)) {}
 
 void TaskActions::wake_at(TimePoint when) { wakes_at_ = std::min(wakes_at_, when); }
 

@@ -6,37 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "core/executive/execution.h"
 #include "core/executive/job_intake.h"
-#include "core/executive/job_register.h"
 #include "core/executive/left_touch.h"
-#include "core/executive/live_scene.h"
-#include "core/executive/publishing.h"
-#include "core/executive/session.h"
-#include "core/executive/signals.h"
-#include "core/executive/task.h"
+#include "core/executive/modules.h"
 
 namespace armloom {
 
-// What jobs and tasks need; all outlive them.
-struct JobModules {
-  CellPtr cell;
-  Scheduler& scheduler;
-  TaskBook& tasks;
-  JobRegister& jobs;
-  LiveScene& scene;
-  Signals& signals;
-  Execution& execution;
-  Session& clock;
-  Publisher& publisher;
-  const JobIntake& intake;
-};
-
 // The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
-class TaskActions {
+class TaskActions : Modules {
  public:
   // `go_on` is called when an action is done later.
-  TaskActions(const JobModules& modules, std::function<void()> go_on);
+  TaskActions(const Modules& modules, std::function<void()> go_on);
 
   // Does the action. Returns false if it is not done yet.
   Result<bool> act(Task& task, const StepRequest& request);
@@ -61,15 +41,6 @@ class TaskActions {
   void show_touch(const std::string& object);
   void wake_at(TimePoint when);
 
-  CellPtr cell_;
-  const Scheduler& scheduler_;
-  TaskBook& tasks_;
-  const JobRegister& jobs_;
-  LiveScene& scene_;
-  Signals& signals_;
-  Execution& execution_;
-  const Session& clock_;
-  Publisher& publisher_;
   std::function<void()> go_on_;
   LeftTouch touch_left_;
   TimePoint wakes_at_ = TimePoint::max();
@@ -77,13 +48,11 @@ class TaskActions {
 
 // Goes through the steps of tasks: which step is next, and how a task ends. Motions are jobs of the
 // scheduler.
-class TaskRun {
+class TaskRun : Modules {
  public:
-  struct Calls {
-    std::function<void(const Input&)> step;  // of the scheduler
-    std::function<void(JobId)> ended;        // the task has ended, and is published
-  };
-  TaskRun(const JobModules& modules, Calls calls);
+  TaskRun(const TaskRun&) = delete;  // its actions refer to it
+  // `ended` is called when a task has ended and is published.
+  TaskRun(const Modules& modules, const JobIntake& intake, std::function<void(JobId)> ended);
 
   JobView accept_task(PreparedJob prepared);
   void enter_task(PreparedJob prepared, JobId id, JobLabel label, bool is_held_over);
@@ -98,7 +67,6 @@ class TaskRun {
   [[nodiscard]] const TaskActions& actions() const { return actions_; }
 
  private:
-  void step(const Input& input) { calls_.step(input); }
   bool go_on(Task& task);
   [[nodiscard]] const Step* lost_motion(const Task& task) const;
   void tell_stop(Task& task, JobId next);
@@ -109,16 +77,9 @@ class TaskRun {
   [[nodiscard]] bool any_stopped(const Task& task) const;
   [[nodiscard]] bool is_recorded(const Task& task);
 
-  CellPtr cell_;
-  const Scheduler& scheduler_;
-  TaskBook& tasks_;
-  JobRegister& jobs_;
-  Execution& execution_;
-  const Session& clock_;
-  Publisher& publisher_;
   const JobIntake& intake_;
   TaskActions actions_;
-  Calls calls_;
+  std::function<void(JobId)> ended_;
   std::set<JobId> tasks_at_end_;  // their last motion has ended
   bool tasks_are_busy_ = false;   // go_on_with_tasks() runs
 };

@@ -38,17 +38,11 @@ TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePo
 
 }  // namespace
 
-TaskRun::TaskRun(const JobModules& modules, Calls calls)
-    : cell_(modules.cell),
-      scheduler_(modules.scheduler),
-      tasks_(modules.tasks),
-      jobs_(modules.jobs),
-      execution_(modules.execution),
-      clock_(modules.clock),
-      publisher_(modules.publisher),
-      intake_(modules.intake),
+TaskRun::TaskRun(const Modules& modules, const JobIntake& intake, std::function<void(JobId)> ended)
+    : Modules(modules),
+      intake_(intake),
       actions_(modules, [this] { go_on_with_tasks(); }),
-      calls_(std::move(calls)) {}
+      ended_(std::move(ended)) {}
 
 JobView TaskRun::accept_task(PreparedJob prepared) {
   const JobId id = scheduler_.next_job();
@@ -220,7 +214,7 @@ void TaskRun::end_task(Task& task, TaskEnd end) {
   }
   actions_.set_touch(task, {});
   tell_task(task.id);
-  calls_.ended(task.id);
+  ended_(task.id);
 }
 
 void TaskRun::fail_task(Task& task, Reason reason, std::string detail) {

@@ -24,13 +24,8 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 }  // namespace
 
-ArmWatch::ArmWatch(const Watched& watched, Calls calls)
-    : cell_(watched.cell),
-      scheduler_(watched.scheduler),
-      scene_(watched.scene),
-      execution_(watched.execution),
-      clock_(watched.clock),
-      publisher_(watched.publisher),
+ArmWatch::ArmWatch(const Modules& modules, Calls calls)
+    : Modules(modules),
       calls_(std::move(calls)),
       watch_(cell_, scene_.scene()),
       links_(cell_->arms.size()) {}
@@ -43,7 +38,7 @@ void ArmWatch::tick() {
 void ArmWatch::take(const MotionReport& report) {
   const Step* moved = scheduler_.find(report.step.job);
   const bool is_watched = clock_.monitored && moved != nullptr;
-  if (report.kind != MotionReport::Kind::finished || !is_watched) return calls_.step(report);
+  if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
   const Motions& motions = execution_.motions();
   std::vector<MonitorFinding> found;
   for (const ArmId arm : moved->trajectory->arms()) {
@@ -51,11 +46,11 @@ void ArmWatch::take(const MotionReport& report) {
         watch_.premises().finished(arm, *moved->trajectory, motions.measured(), clock_.now);
     if (early) found.push_back(std::move(*early));
   }
-  if (found.empty()) return calls_.step(report);
+  if (found.empty()) return step(report);
   MotionReport failed = report;
   failed.kind = MotionReport::Kind::faulted;
   failed.detail = sentence(found.front(), *cell_);
-  calls_.step(failed);
+  step(failed);
   act_on(found);
 }
 
@@ -102,8 +97,7 @@ void ArmWatch::watch_links() {
     switch (change.kind) {
       case Kind::waits:
         tell_unlocated(change.arm);
-        calls_.step(
-            Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
+        step(Stop({{change.arm, "its controller has not connected: " + change.detail, true}}));
         publisher_.tell(
             Alert{Alert::Level::info, arm + " waits for its controller: " + change.detail},
             clock_.now);
@@ -141,7 +135,7 @@ void ArmWatch::tell_unlocated(ArmId arm) {
   for (const ArmId other : all_arms(*cell_)) {
     if (other != arm && !scene_.scene()->out_of_reach(arm, other)) may_meet.push_back(other);
   }
-  calls_.step(Unlocated{arm, std::move(may_meet)});
+  step(Unlocated{arm, std::move(may_meet)});
 }
 
 void ArmWatch::locate(ArmId arm) {
@@ -152,7 +146,7 @@ void ArmWatch::locate(ArmId arm) {
       joints_of(scheduler_.state().arms.rest(), execution_.motions().joints(arm));
   const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
   if (is_there && !scheduler_.state().arms.is_unlocated(arm)) return;
-  calls_.step(Located{arm, link.feedback().measured});
+  step(Located{arm, link.feedback().measured});
 }
 
 // Publishes the findings and stops their arms, each with the first finding that names it as cause.
@@ -173,7 +167,7 @@ void ArmWatch::act_on(const std::vector<MonitorFinding>& found) {
   }
   if (stopped.empty()) return;
   const std::size_t count = stopped.size();
-  calls_.step(Stop(std::move(stopped)));
+  step(Stop(std::move(stopped)));
   publisher_.tell_monitor_stop(count);
 }
 

@@ -4,34 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "core/executive/execution.h"
 #include "core/executive/link_watch.h"
-#include "core/executive/live_scene.h"
-#include "core/executive/publishing.h"
-#include "core/executive/session.h"
+#include "core/executive/modules.h"
 #include "core/executive/state_watch.h"
-#include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
 // Runs the monitor on the measured state, watches the links of the arms, and acts on what it finds.
-class ArmWatch {
+class ArmWatch : Modules {
  public:
-  // What the watch reads and acts on; all outlive it.
-  struct Watched {
-    CellPtr cell;
-    const Scheduler& scheduler;
-    const LiveScene& scene;
-    Execution& execution;
-    Session& clock;
-    Publisher& publisher;
-  };
   struct Calls {
-    std::function<void(const Input&)> step;  // of the scheduler
     std::function<void(ArmId, const std::string& cause)> stop;
     std::function<void(ArmId)> resume;
   };
-  ArmWatch(const Watched& watched, Calls calls);
+  ArmWatch(const Modules& modules, Calls calls);
 
   // Passes the report on to the scheduler. A motion that ended away from its goal has failed.
   void take(const MotionReport& report);
@@ -48,12 +34,6 @@ class ArmWatch {
   void tell_unlocated(ArmId arm);
   void act_on(const std::vector<MonitorFinding>& found);
 
-  CellPtr cell_;
-  const Scheduler& scheduler_;
-  const LiveScene& scene_;
-  Execution& execution_;
-  Session& clock_;
-  Publisher& publisher_;
   Calls calls_;
   StateWatch watch_;
   LinkWatch links_;

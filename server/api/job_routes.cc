@@ -1,7 +1,6 @@
 #include <memory>
 #include <utility>
 
-#include "core/executive/inquiries.h"
 #include "core/executive/queue_lists.h"
 #include "core/executive/status_board.h"
 #include "core/executive/timeline.h"

@@ -1,4 +1,3 @@
-#include "core/executive/inquiries.h"
 #include "server/api/route.h"
 #include "server/messages/job_motion.h"
 

@@ -1,6 +1,5 @@
 #include <utility>
 
-#include "core/executive/inquiries.h"
 #include "server/api/route.h"
 #include "server/messages/plan.h"
 #include "server/messages/steps_plan.h"

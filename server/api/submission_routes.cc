@@ -1,6 +1,5 @@
 #include <utility>
 
-#include "core/executive/inquiries.h"
 #include "core/executive/validated.h"
 #include "server/access/digest.h"
 #include "server/api/examples.h"

@@ -16,7 +16,6 @@
 #include "core/collision/check/line_checker.h"
 #include "core/collision/check/motion_checker.h"
 #include "core/executive/executive.h"
-#include "core/executive/inquiries.h"
 #include "core/executive/simulation.h"
 #include "core/model/cell/build_cell.h"
 #include "core/trajectory/set_joints.h"

@@ -1,7 +1,6 @@
 // Results of /check for jobs that still need a plan, compared with the outcome when submitted.
 #include <gmock/gmock.h>
 
-#include "core/executive/inquiries.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {

@@ -1,7 +1,6 @@
 // T10: jobs that block each other's goals in a swap, while an uninvolved arm is present.
 #include <gtest/gtest.h>
 
-#include "core/executive/inquiries.h"
 #include "test/scenarios/polygon.h"
 
 namespace armloom {

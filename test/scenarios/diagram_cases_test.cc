@@ -1,4 +1,3 @@
-#include "core/executive/inquiries.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {

@@ -7,7 +7,6 @@
 #include <map>
 #include <random>
 
-#include "core/executive/inquiries.h"
 #include "core/executive/job_sheet.h"
 #include "core/executive/queue_lists.h"
 #include "core/executive/real_time_loop.h"

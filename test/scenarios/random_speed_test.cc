@@ -2,7 +2,6 @@
 // ARMLOOM_SEEDS=500 runs more.
 #include <gtest/gtest.h>
 
-#include "core/executive/inquiries.h"
 #include "test/scenarios/random_faults.h"
 #include "test/scenarios/seeds.h"
 #include "test/scenarios/star.h"

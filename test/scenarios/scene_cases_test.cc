@@ -2,7 +2,6 @@
 
 #include "core/collision/scene/scene_bodies.h"
 #include "core/executive/holding.h"
-#include "core/executive/inquiries.h"
 #include "core/executive/live_scene.h"
 #include "test/scenarios/polygon.h"
 

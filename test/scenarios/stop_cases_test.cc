@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "core/executive/inquiries.h"
 #include "test/scenarios/crossing.h"
 
 namespace armloom {

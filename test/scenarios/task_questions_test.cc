@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 
-#include "core/executive/inquiries.h"
 #include "test/scenarios/tasks.h"
 
 namespace armloom {

@@ -14,7 +14,6 @@
 
 #include "core/collision/check/motion_checker.h"
 #include "core/executive/batch.h"
-#include "core/executive/inquiries.h"
 #include "core/executive/validated.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
