@@ -12,14 +12,14 @@ std::string Executive::ActivePolicy::name() const {
 }
 
 Result<void> Executive::ActivePolicy::change(const std::string& name) {
-  executive_.note({ExecutiveInput::PolicyChanged{name}});
+  executive_.clock_.note({ExecutiveInput::PolicyChanged{name}});
   auto policy = make_policy(name, *executive_.cell_);
   if (!policy) {
     policy.error().front().pointer = "/policy";
     return failure(std::move(policy.error()));
   }
   const Scheduler& scheduler = executive_.scheduler_;
-  if (!scheduler.may_change_policy()) {
+  if (!scheduler.state().graph.motions().empty()) {
     std::string admitted;
     for (JobId job : scheduler.active()) {
       if (scheduler.find(job)->in<Queued>() != nullptr) continue;

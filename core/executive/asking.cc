@@ -7,7 +7,8 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/arms_of.h"
-#include "core/executive/executive_impl.h"
+#include "core/executive/inquiry_desk.h"
+#include "core/executive/timeline.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -127,7 +128,7 @@ Problem too_many_open(const std::string& what) {
           "too many " + what + " are open; retry in a moment"};
 }
 
-void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
+void InquiryDesk::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
   JobIntake::Ahead ahead = intake_.ahead();
   Configuration at = ahead.rest;
   auto prepared = intake_.prepare(std::move(request), ahead);
@@ -147,11 +148,13 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
        scene_.scene(), judged);
 }
 
-Trial::Open Executive::Impl::open_now() { return {questions_.asked(), questions_.plans().open()}; }
+Trial::Open InquiryDesk::open_now() const {
+  return {questions_.asked(), questions_.plans().open()};
+}
 
 // As admission would, in this instant.
-void Executive::Impl::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
-                           std::function<void(TrialEnd)> done) {
+void InquiryDesk::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
+                       std::function<void(TrialEnd)> done) {
   if (auto question = trial->next()) {
     const auto answered = [this, trial, scene, done](Verdict verdict) {
       trial->answer(std::move(verdict));
@@ -166,21 +169,23 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
       walk(trial, scene, done);
     };
     const auto cancelled = std::make_shared<std::atomic<bool>>(false);
-    if (questions_.service().draft({plan->question, scene, cancelled, answered})) return;
+    if (questions_.service().draft(
+            {plan->question, scene, cancelled, answered, plan->known.has_value()}))
+      return;
     return done(failure(too_many_open("plans")));
   }
   done(trial->outcome());
 }
 
 // Returns the arms that may leave their places before a motion that is planned now.
-std::vector<ArmId> Executive::Impl::may_move(const std::vector<ArmId>& staying) const {
+std::vector<ArmId> InquiryDesk::may_move(const std::vector<ArmId>& staying) const {
   std::vector<ArmId> arms = all_arms(*cell_);
   std::erase_if(
       arms, [&](ArmId arm) { return std::ranges::count(staying, arm) > 0 || !jobs_.has_job(arm); });
   return arms;
 }
 
-struct Executive::Impl::OpenInquiry {
+struct InquiryDesk::OpenInquiry {
   PlanInquiry inquiry;
   std::vector<PlanQuestion> questions;
   std::shared_ptr<std::atomic<bool>> cancelled;
@@ -190,9 +195,9 @@ struct Executive::Impl::OpenInquiry {
   RefusedArms refused = {};
 };
 
-void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-                           std::function<void(Result<PlanOutcome>)> done) {
-  auto questions = questions_of(*cell_, inquiry, scheduler_.predicted_rest());
+void InquiryDesk::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                       std::function<void(Result<PlanOutcome>)> done) {
+  auto questions = questions_of(*cell_, inquiry, predicted_rest(scheduler_.state()));
   if (!questions) return done(failure(std::move(questions.error())));
   for (PlanQuestion& question : *questions) question.may_move = may_move({question.goal.arm});
   plan_next(std::make_shared<OpenInquiry>(OpenInquiry{std::move(inquiry), *std::move(questions),
@@ -200,7 +205,7 @@ void Executive::Impl::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool
 }
 
 // One arm after the other.
-void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
+void InquiryDesk::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   if (inquiry->next == inquiry->questions.size()) {
     return inquiry->done(first_of(inquiry->inquiry, std::move(inquiry->plans), inquiry->refused));
   }
@@ -214,7 +219,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
     const std::vector<Eigen::VectorXd> points = answer->way.points;
     JobRequest job{.key = "", .name = "", .trajectory = answer->timed.request};
     PlanView view{.arm = arm, .others = {}, .motion = *std::move(answer)};
-    view.takes = scheduler_.time_for(*view.motion.timed.trajectory);
+    view.takes = scheduler_.state().time_for(*view.motion.timed.trajectory);
     view.length = view.motion.way.length();
     view.straight_line_length = (points.back() - points.front()).norm();
     check(std::move(job), [this, inquiry, view = std::move(view)](auto verdict) mutable {
@@ -226,6 +231,21 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   PlanTask task{std::move(question), scene_.scene(), inquiry->cancelled, judge};
   if (questions_.service().draft(std::move(task))) return;
   inquiry->done(failure(too_many_open("plans")));
+}
+
+void InquiryDesk::diagram(const std::string& key_a, const std::string& key_b,
+                          std::function<void(Result<DiagramView>)> done) {
+  questions_.drawings().draw({key_a, key_b, scene_.now(), clock_.now}, std::move(done));
+}
+
+TrajectoryPtr InquiryDesk::trajectory(const std::string& key) const {
+  const auto id = jobs_.find(key);
+  return id ? scheduler_.find(tasks_.present_motion(*id))->trajectory : nullptr;
+}
+
+TimelineView InquiryDesk::timeline() const {
+  return {scheduler_.timeline(clock_.now), scheduler_.policy().lookahead.horizon,
+          publisher_.board()->read()};
 }
 
 }  // namespace armloom

@@ -33,7 +33,7 @@ DiagramView shown(DiagramView view, const Diagram& diagram, const Cell& cell) {
 }  // namespace
 
 Result<const Step*> Drawings::known(const std::string& key, const std::string& pointer) const {
-  if (const auto id = jobs_.find(key)) return scheduler_.find(tasks_.motion_of(*id));
+  if (const auto id = jobs_.find(key)) return scheduler_.find(tasks_.present_motion(*id));
   return failure(Problem{ProblemKind::not_found, "no-such-job", pointer,
                          "there is no job \"" + key + "\"", key});
 }
@@ -70,16 +70,16 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
       .time = asked.now, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version};
   const auto cached = std::ranges::find_if(drawn_, [&](const Drawn& drawn) {
     return drawn.a == motion_a && drawn.b == motion_b && drawn.scene_version == scene_version &&
-           drawn.rest == scheduler_.rest();
+           drawn.rest == scheduler_.state().arms.rest();
   });
   if (cached != drawn_.end()) return done(shown(std::move(view), cached->diagram, cell));
   Drawing drawing{.a = motion_a,
                   .b = motion_b,
-                  .rest = scheduler_.rest(),
+                  .rest = scheduler_.state().arms.rest(),
                   .tracking_errors = TrackingErrors(cell),
                   .resolution = kResolution,
                   .budget = kCells};
-  Drawn remembered{motion_a, motion_b, scheduler_.rest(), scene_version, {}};
+  Drawn remembered{motion_a, motion_b, scheduler_.state().arms.rest(), scene_version, {}};
   const auto drawn = [this, &cell, view = std::move(view), done,
                       remembered = std::move(remembered)](Diagram diagram) mutable {
     remembered.diagram = std::move(diagram);

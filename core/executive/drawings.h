@@ -21,7 +21,7 @@ class Drawings {
            JudgementService& judges)
       : scheduler_(scheduler), tasks_(tasks), jobs_(jobs), judges_(judges) {}
 
-  // Two jobs by key, and the scene and time of the request (Executive::diagram()).
+  // Two jobs by key, and the scene and time of the request (Inquiries::diagram()).
   struct Asked {
     std::string key_a, key_b;
     VersionedScene in;

@@ -9,7 +9,6 @@
 #include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
 #include "core/executive/status_board.h"
-#include "core/executive/timeline.h"
 
 namespace armloom {
 namespace {
@@ -24,78 +23,62 @@ Executive::Executive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Executive::~Executive() = default;
 
 Result<JobView> Executive::submit(JobRequest request) {
-  impl_->note({ExecutiveInput::Submitted{{asked(request)}}});
-  return impl_->submit(std::move(request));
+  impl_->clock_.note({ExecutiveInput::Submitted{{asked(request)}}});
+  return impl_->clients_.desk.submit(std::move(request));
 }
 std::shared_ptr<Executive::Batch> Executive::open_batch(std::vector<JobRequest> requests,
                                                         bool atomic) {
   std::vector<ExecutiveInput::AskedJob> jobs;
   std::ranges::transform(requests, std::back_inserter(jobs), asked);
-  impl_->note(atomic ? ExecutiveInput{ExecutiveInput::AtomicBatchOpened{std::move(jobs)}}
-                     : ExecutiveInput{ExecutiveInput::BatchOpened{std::move(jobs)}});
+  impl_->clock_.note(atomic ? ExecutiveInput{ExecutiveInput::AtomicBatchOpened{std::move(jobs)}}
+                            : ExecutiveInput{ExecutiveInput::BatchOpened{std::move(jobs)}});
   return std::make_shared<Batch>(*impl_, std::move(requests), atomic);
 }
 std::optional<Executive::BatchAnswers> Executive::Batch::go_on() {
-  executive.note({ExecutiveInput::WentOn{}});
-  return executive.go_on(*this);
-}
-void Executive::check(JobRequest request, std::function<void(Result<CheckView>)> done) {
-  impl_->check(std::move(request), std::move(done));
-}
-void Executive::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-                     std::function<void(Result<PlanOutcome>)> done) {
-  impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
-}
-void Executive::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-                     std::function<void(Result<StepsPlan>)> done) {
-  impl_->plan(std::move(inquiry), std::move(cancelled), std::move(done));
-}
-void Executive::diagram(const std::string& key_a, const std::string& key_b,
-                        std::function<void(Result<DiagramView>)> done) {
-  impl_->questions_.drawings().draw({key_a, key_b, impl_->scene_.now(), impl_->clock_.now},
-                                    std::move(done));
+  executive.clock_.note({ExecutiveInput::WentOn{}});
+  return executive.clients_.desk.go_on(*this);
 }
 Result<JobView> Executive::cancel(const std::string& key, std::optional<TimePoint> at) {
-  impl_->note(at ? ExecutiveInput{ExecutiveInput::Held{key, *at}}
-                 : ExecutiveInput{ExecutiveInput::Canceled{key}});
-  return impl_->cancel(key, at);
+  impl_->clock_.note(at ? ExecutiveInput{ExecutiveInput::Held{key, *at}}
+                        : ExecutiveInput{ExecutiveInput::Canceled{key}});
+  return impl_->clients_.desk.cancel(key, at);
 }
 void Executive::roll_back(const std::string& key) {
-  impl_->note({ExecutiveInput::RolledBack{key}});
-  impl_->roll_back(key);
+  impl_->clock_.note({ExecutiveInput::RolledBack{key}});
+  impl_->clients_.desk.roll_back(key);
 }
 Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
-  impl_->note({ExecutiveInput::Amended{key, amendment}});
-  return impl_->amend(key, std::move(amendment));
+  impl_->clock_.note({ExecutiveInput::Amended{key, amendment}});
+  return impl_->clients_.desk.amend(key, std::move(amendment));
 }
 Result<JobView> Executive::replan(const std::string& key) {
-  impl_->note({ExecutiveInput::Replanned{key}});
-  return impl_->replan(key);
+  impl_->clock_.note({ExecutiveInput::Replanned{key}});
+  return impl_->clients_.desk.replan(key);
 }
 void Executive::alert(Alert alert) {
-  impl_->note({ExecutiveInput::Alerted{alert}});
+  impl_->clock_.note({ExecutiveInput::Alerted{alert}});
   impl_->publisher_.tell(std::move(alert), impl_->clock_.now);
 }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause,
                      StopCategory category) {
-  impl_->note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause, category}});
+  impl_->clock_.note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause, category}});
   impl_->stop(arms, cause, Alert::Level::warning, category);
 }
 std::vector<ArmId> Executive::resume(const std::vector<ArmId>& arms) {
-  impl_->note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
+  impl_->clock_.note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
   return impl_->resume(arms);
 }
 void Executive::set_speed(std::optional<ArmId> arm, double share) {
   const Cell& cell = *impl_->cell_;
-  impl_->note({ExecutiveInput::SpeedSet{arm ? cell.arm(*arm).name : std::string(), share}});
+  impl_->clock_.note({ExecutiveInput::SpeedSet{arm ? cell.arm(*arm).name : std::string(), share}});
   impl_->set_speed(arm, share);
 }
 Result<CollisionObject> Executive::detach(const std::string& object) {
-  impl_->note({ExecutiveInput::ObjectDetached{object}});
-  return impl_->detach(object);
+  impl_->clock_.note({ExecutiveInput::ObjectDetached{object}});
+  return impl_->clients_.tasks.actions().detach(object);
 }
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
-  impl_->note({ExecutiveInput::WoundDown{cause, waiting}});
+  impl_->clock_.note({ExecutiveInput::WoundDown{cause, waiting}});
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
@@ -105,13 +88,16 @@ std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
     former.push_back(
         {id, request.key, submitted_at, {request.name, amendable(request.terms)}, asked(request)});
   }
-  impl_->note({ExecutiveInput::Restored{std::move(former)}});
-  return impl_->restore(std::move(jobs));
+  impl_->clock_.note({ExecutiveInput::Restored{std::move(former)}});
+  return impl_->clients_.desk.restore(std::move(jobs));
 }
+Inquiries& Executive::inquiries() { return impl_->clients_.inquiries; }
 LiveScene& Executive::scene() { return impl_->scene_; }
 ArmFaults& Executive::faults() { return impl_->execution_.faults(); }
 Signals& Executive::signals() { return impl_->signals_; }
-std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
+std::optional<JobView> Executive::job(const std::string& key) const {
+  return impl_->clients_.desk.job(key);
+}
 std::shared_ptr<const StatusBoard> Executive::board() const { return impl_->publisher_.board(); }
 Snapshot Executive::snapshot(std::size_t ended_max) const {
   const Status status = impl_->publisher_.board()->read();
@@ -119,21 +105,11 @@ Snapshot Executive::snapshot(std::size_t ended_max) const {
   for (const auto& job : status.jobs_with_ended(ended_max)) snapshot.jobs.push_back(*job);
   return snapshot;
 }
-TrajectoryPtr Executive::trajectory(const std::string& key) const {
-  const auto id = impl_->jobs_.find(key);
-  if (!id) return nullptr;
-  return impl_->scheduler_.find(impl_->tasks_.motion_of(*id))->trajectory;
-}
-std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
-TimelineView Executive::timeline() const {
-  const Scheduler& scheduler = impl_->scheduler_;
-  return {scheduler.timeline(impl_->clock_.now), scheduler.policy().lookahead.horizon,
-          impl_->publisher_.board()->read()};
-}
+std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms().views(); }
 TimePoint Executive::now() const { return impl_->clock_.now; }
 bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }
 TimePoint Executive::settled_until() const { return impl_->settled_until(); }
-const RunFigures& Executive::figures() const { return impl_->count_.figures(); }
+const RunFigures& Executive::figures() const { return impl_->clock_.count.figures(); }
 void Executive::tick(TimePoint now) { impl_->tick(now); }
 
 Executive::BatchAnswers submit_batch(Executive& executive, std::vector<JobRequest> requests,

@@ -180,6 +180,39 @@ struct DiagramView {
   std::uint64_t scene_version = 0;
 };
 
+// What-if questions of clients, and views that are made on request. They change nothing. Used on
+// the strand.
+class Inquiries {
+ public:
+  virtual ~Inquiries() = default;
+  // Finds what would happen to the job if it were submitted now (Trial). Changes nothing. `done` is
+  // called on the strand, at once or later. Of a job with steps, checks each motion in order: from
+  // where the step before it ends, with what the arms then hold, while all arms of other jobs are
+  // where they are now. Ends with the first that is not free.
+  virtual void check(JobRequest request, std::function<void(Result<CheckView>)> done) = 0;
+  // Plans a trajectory without executing it, around all other arms where they will be after all
+  // accepted jobs. Of several candidate arms, plans for the arm that arrives first. The outcome
+  // includes the result of check(). `done` is called on the strand, at once or later; soon if the
+  // client sets `cancelled`. Problems: wrong names or sizes, broken limits (pointers "/arm",
+  // "/to/...", "/start/..."); unavailable: too many plans are open.
+  virtual void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                    std::function<void(Result<PlanOutcome>)> done) = 0;
+  // Plans all motions of a job with steps without executing them: each from where the step before
+  // it ends, with what the arms then hold. Changes nothing. Otherwise like plan() of a motion.
+  // Problems: those of submit(); unavailable: too many plans are open.
+  virtual void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                    std::function<void(Result<StepsPlan>)> done) = 0;
+  // Draws the coordination diagram of two jobs, active or ended. `done` is called on the strand, at
+  // once or later. Problems: not_found; invalid: the jobs do not have two different arms;
+  // unavailable: too many drawings are open. The pointer "?with" means `key_b`.
+  virtual void diagram(const std::string& key_a, const std::string& key_b,
+                       std::function<void(Result<DiagramView>)> done) = 0;
+  // Returns the job's motion; null if the job is unknown. If the arm is undecided, returns the
+  // motion of the likeliest arm.
+  [[nodiscard]] virtual TrajectoryPtr trajectory(const std::string& key) const = 0;
+  [[nodiscard]] virtual TimelineView timeline() const = 0;
+};
+
 // Runs clock, scheduler, checks, monitor and arms on one strand. Not thread-safe. It owns no thread
 // and no clock: a driver (Simulation, RealTimeLoop) calls tick() with growing cell time.
 class Executive {
@@ -210,28 +243,6 @@ class Executive {
   // submitted. A job that begins elsewhere than its arm will be is accepted, but fails at its turn.
   // Problems: those of submit().
   [[nodiscard]] std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
-  // Finds what would happen to the job if it were submitted now (Trial). Changes nothing. `done` is
-  // called on the strand, at once or later. Of a job with steps, checks each motion in order: from
-  // where the step before it ends, with what the arms then hold, while all arms of other jobs are
-  // where they are now. Ends with the first that is not free.
-  void check(JobRequest request, std::function<void(Result<CheckView>)> done);
-  // Plans a trajectory without executing it, around all other arms where they will be after all
-  // accepted jobs. Of several candidate arms, plans for the arm that arrives first. The outcome
-  // includes the result of check(). `done` is called on the strand, at once or later; soon if the
-  // client sets `cancelled`. Problems: wrong names or sizes, broken limits (pointers "/arm",
-  // "/to/...", "/start/..."); unavailable: too many plans are open.
-  void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-            std::function<void(Result<PlanOutcome>)> done);
-  // Plans all motions of a job with steps without executing them: each from where the step before
-  // it ends, with what the arms then hold. Changes nothing. Otherwise like plan() of a motion.
-  // Problems: those of submit(); unavailable: too many plans are open.
-  void plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-            std::function<void(Result<StepsPlan>)> done);
-  // Draws the coordination diagram of two jobs, active or ended. `done` is called on the strand, at
-  // once or later. Problems: not_found; invalid: the jobs do not have two different arms;
-  // unavailable: too many drawings are open. The pointer "?with" means `key_b`.
-  void diagram(const std::string& key_a, const std::string& key_b,
-               std::function<void(Result<DiagramView>)> done);
   // Cancels the job, now or in the control cycle at `at`. A later call can set another time before
   // that (hold_to_run.h). Problems: not_found; conflict if the job has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at = {});
@@ -271,6 +282,8 @@ class Executive {
   enum class Waiting { ends, is_kept };
   void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 
+  [[nodiscard]] Inquiries& inquiries();
+
   [[nodiscard]] LiveScene& scene();
 
   [[nodiscard]] ArmFaults& faults();
@@ -278,15 +291,11 @@ class Executive {
   [[nodiscard]] Signals& signals();
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
-  // Returns the job's motion; null if the job is unknown. If the arm is undecided, returns the
-  // motion of the likeliest arm.
-  [[nodiscard]] TrajectoryPtr trajectory(const std::string& key) const;
   // The published status, for any thread (status_board.h).
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const;
   // Returns the status with all active jobs and at most the `ended_max` jobs that ended last.
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
-  [[nodiscard]] TimelineView timeline() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;
   // Returns the time until which nothing changes without an input or an answer, because every arm

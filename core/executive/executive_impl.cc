@@ -24,18 +24,19 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       jobs_(scheduler_, tasks_, {options.ended_kept, options.ended_bytes_max}),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
-             {.asked = [this](const ExecutiveInput& input) { note(input); },
+             {.asked = [this](const ExecutiveInput& input) { clock_.note(input); },
               .changed = [this](ClearanceQuery& query) { scene_has_changed(query); },
               .now = [this] { return clock_.now; }}),
-      signals_(cell_->io, std::move(options.write_signal),
-               {.asked = [this](const ExecutiveInput& input) { return note(input), clock_.now; },
-                .changed = [this](SignalId signal) { signal_changed(signal); },
-                .now = [this] { return clock_.now; },
-                .alert = [this](Alert alert) { publisher_.tell(std::move(alert), clock_.now); }}),
+      signals_(
+          cell_->io, std::move(options.write_signal),
+          {.asked = [this](const ExecutiveInput& input) { return clock_.note(input), clock_.now; },
+           .changed = [this](SignalId signal) { signal_changed(signal); },
+           .now = [this] { return clock_.now; },
+           .alert = [this](Alert alert) { publisher_.tell(std::move(alert), clock_.now); }}),
       execution_(
           cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
           [this](const ExecutiveInput& input) {
-            note(input);
+            clock_.note(input);
             clock_.quiet = false;  // a fault may change reports of arms at rest
             return clock_.now;
           },
@@ -44,21 +45,41 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
            .allowed =
                [this](StepId id) { publisher_.tell_job(publisher_.view(id.job), clock_.now); }}),
       questions_(scheduler_, tasks_, jobs_, judges),
-      count_(cell_->arms.size()),
-      clock_{.monitored = options.monitored, .dies_at = options.dies_at, .inputs = options.inputs},
+      clock_{.monitored = options.monitored,
+             .dies_at = options.dies_at,
+             .inputs = options.inputs,
+             .count = RunCount(cell_->arms.size())},
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
                   execution_.starts(), scene_, signals_, tasks_},
                  observer),
-      intake_(cell_, {scheduler_, jobs_, tasks_, [this] { return scene_.scene(); }},
-              {options.waiting_max, options.active_bytes_max}),
-      watch_(cell_, scene_.scene()),
-      links_(cell_->arms.size()) {
+      watch_(modules(),
+             {.stop = [this](ArmId arm, const std::string& cause) { stop({arm}, cause); },
+              .resume = [this](ArmId arm) { resume({arm}); }}),
+      clients_{
+          .intake = JobIntake(cell_, {scheduler_, jobs_, tasks_, [this] { return scene_.scene(); }},
+                              {options.waiting_max, options.active_bytes_max}),
+          .tasks = TaskRun(modules(), clients_.intake,
+                           [this](JobId id) { clients_.desk.end(id, clock_.now); }),
+          .desk = JobDesk(modules(), clients_.intake, clients_.tasks,
+                          [this](JobId id) { scheduler_.forget(id); }),
+          .inquiries =
+              InquiryDesk(modules(), clients_.intake, clients_.tasks.actions().touch_left())} {
   follow_policy();
   for (const SignalView& signal : signals_.views()) step(input_of(signal));
 }
 
-void Executive::Impl::note(ExecutiveInput input) const {
-  if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);
+Modules Executive::Impl::modules() {
+  return {cell_,
+          scheduler_,
+          tasks_,
+          jobs_,
+          scene_,
+          signals_,
+          execution_,
+          questions_,
+          clock_,
+          publisher_,
+          [this](const Input& input) { step(input); }};
 }
 
 // ---- The scheduler and its effects ----
@@ -67,13 +88,13 @@ void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
   if (const auto* report = std::get_if<MotionReport>(&input)) {
-    fire_triggers(*report);
+    clients_.tasks.actions().fire_triggers(*report);
     if (effects.empty()) return;
   }
-  if (!wind_down_) publisher_.tell_stops();  // nobody resumes what only the end has stopped
+  if (!clock_.wind_down) publisher_.tell_stops();  // nobody resumes what only the end has stopped
   publisher_.queue_may_have_changed(clock_.now);
   publisher_.publish_step(clock_.now);
-  go_on_with_tasks();
+  clients_.tasks.go_on_with_tasks();
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -91,19 +112,19 @@ void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
     questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
       publisher_.tell_judged(made.verdict.evaluations);
-      note({ExecutiveInput::Judged{made.verdict.evaluations, made.verdict.interrupted}});
+      clock_.note({ExecutiveInput::Judged{made.verdict.evaluations, made.verdict.interrupted}});
       execution_.gate().take(made.verdict.certificates);
       hide_checks();
       step(made);
     });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
     questions_.plans().ask(*plan, scene_.scene(), [this](const PlanMade& made) {
-      note({ExecutiveInput::Planned{made.step, made.question}});
+      clock_.note({ExecutiveInput::Planned{made.step, made.question}});
       step(made);
     });
   } else if (const auto* dispatch = std::get_if<Dispatch>(&effect)) {
     const auto written = [this](StepId id) {
-      note({ExecutiveInput::StartWritten{id}});
+      clock_.note({ExecutiveInput::StartWritten{id}});
       step(StartRecorded{id});
       const Step* started = scheduler_.find(id.job);
       return started != nullptr && started->in<Moving>() != nullptr;
@@ -141,14 +162,11 @@ void Executive::Impl::job_changed(JobId id) {
     questions_.plans().give_up(id);
     questions_.give_up(id);
     execution_.forget(changed);
-    if (changed.trajectory) clear_left_touch(changed.trajectory->arms());
+    if (changed.trajectory) clients_.tasks.actions().clear_left_touch(changed.trajectory->arms());
   }
-  if (Task* task = tasks_.find(id)) return motion_changed(*task, id);
+  if (Task* task = tasks_.find(id)) return clients_.tasks.motion_changed(*task, id);
   JobView view = publisher_.view(id);
-  if (changed.has_ended()) {
-    count_.end_of_a_job(*view.times.ended_at);
-    forget_oldest(id);
-  }
+  if (changed.has_ended()) clients_.desk.end(id, *view.times.ended_at);
   publisher_.tell_job(std::move(view), clock_.now);
 }
 
@@ -162,13 +180,13 @@ void Executive::Impl::show_check() {
     if (scheduler_.find(job) == nullptr) continue;
     JobView view = publisher_.view(job);
     if (!questions_.tell_check(view)) return;
-    checks_shown_.insert(job);
+    questions_.note_shown(job);
     publisher_.show(std::move(view), clock_.now);
   }
 }
 
 void Executive::Impl::hide_checks() {
-  for (JobId job : std::exchange(checks_shown_, {})) {
+  for (JobId job : questions_.take_shown()) {
     if (scheduler_.find(job) != nullptr) publisher_.show(publisher_.view(job), clock_.now);
   }
 }
@@ -192,26 +210,24 @@ void Executive::Impl::tick(TimePoint now) {
   }
   for (const std::string& job : clock_.held.let_go(now)) {
     clock_.quiet = false;
-    static_cast<void>(cancel(job, {}));  // it may have ended
+    static_cast<void>(clients_.desk.cancel(job, {}));  // it may have ended
   }
   for (const MotionReport& report : execution_.tick(now)) {
     clock_.quiet = false;
-    if (!execution_.keeps_back(report)) take(report);
+    if (!execution_.keeps_back(report)) watch_.take(report);
   }
   for (const StepId id : execution_.gate().refused_for_long()) {
     const GuardRefusal why = *execution_.gate().refusal(id);
     step(Refused{id, why.other, sentence(why, *cell_)});
   }
-  if (now >= task_wakes_at_) {
+  if (clients_.tasks.actions().takes_wake()) {
     clock_.quiet = false;
-    task_wakes_at_ = TimePoint::max();
-    go_on_with_tasks();
+    clients_.tasks.go_on_with_tasks();
   }
   if (now >= clock_.shows_check_at) show_check();
-  forget_rolled_back();
-  count_.motion(motions);
-  watch_links();
-  if (clock_.monitored && watch_.is_due(now)) watch();
+  clients_.desk.forget_rolled_back();
+  clock_.count.motion(motions);
+  watch_.tick();
   publisher_.tell_queue(now);
   publisher_.tell_scene(now);
   publisher_.tell_arms(now);
@@ -220,9 +236,10 @@ void Executive::Impl::tick(TimePoint now) {
   const auto is_moving = [&](ArmId arm) {
     return motions.moving(arm) && motions.link(arm).state() != ArmLink::State::lost;
   };
-  if (wind_down_ && wind_down_->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
-    interrupt(wind_down_->keeps_waiting);
-    std::exchange(wind_down_->done, nullptr)();
+  auto& wind_down = clock_.wind_down;
+  if (wind_down && wind_down->done && std::ranges::none_of(all_arms(*cell_), is_moving)) {
+    clients_.tasks.interrupt(wind_down->keeps_waiting);
+    std::exchange(wind_down->done, nullptr)();
   }
 }
 
@@ -230,64 +247,8 @@ TimePoint Executive::Impl::settled_until() const {
   const bool settled = clock_.quiet && execution_.motions().all_settled() &&
                        execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
-  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(), task_wakes_at_,
-                   scene_.expiry().at});
-}
-
-// ---- What is asked of all arms ----
-
-void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
-                           Alert::Level level, StopCategory category) {
-  // Whoever asks again and again is heard each time, and told of once.
-  const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
-    const auto& stop = scheduler_.stop_of(arm);
-    return !stop || stop->cause != cause;
-  });
-  if (is_news) {
-    publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
-                    clock_.now);
-  }
-  step(Stop{arms, cause});
-  if (category == StopCategory::brake) return;
-  for (const ArmId arm : arms) execution_.brake(arm, category);
-}
-
-std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
-  const auto is_absent = [this](ArmId arm) {
-    const ArmLink::State link = execution_.motions().link(arm).state();
-    return link == ArmLink::State::connecting || link == ArmLink::State::lost;
-  };
-  const auto absent =
-      std::stable_partition(arms.begin(), arms.end(), [&](ArmId arm) { return !is_absent(arm); });
-  const std::vector<ArmId> not_resumed(absent, arms.end());
-  arms.erase(absent, arms.end());
-  if (!not_resumed.empty()) {
-    publisher_.tell(Alert{Alert::Level::warning,
-                          "not resumed: " + names_of(*cell_, not_resumed) +
-                              " (no link to the controller): resume again when the link is up"},
-                    clock_.now);
-  }
-  if (arms.empty()) return not_resumed;
-  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
-  for (const ArmId arm : arms) locate(arm);
-  for (const ArmId arm : arms) watch_.resumed(arm);
-  step(Resume{arms});
-  return not_resumed;
-}
-
-void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
-  step(SetSpeed{arm, share});
-  std::vector<double> shares;
-  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.speed().effective(each));
-  execution_.set_speed(std::move(shares));
-  publisher_.tell_arms(clock_.now);
-}
-
-void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
-                          std::function<void()> done) {
-  wind_down_ = {std::move(done), keeps_waiting};
-  intake_.close();
-  stop(all_arms(*cell_), cause, Alert::Level::info);
+  return std::min({clock_.wake_at.value_or(TimePoint::max()), clock_.held.next(),
+                   clients_.tasks.actions().wakes_at(), scene_.expiry().at});
 }
 
 // ---- The guard ----
@@ -304,7 +265,7 @@ void Executive::Impl::follow_policy() {
 
 void Executive::Impl::certify(const Question& question) {
   questions_.service().certify(question, scene_.scene(), [this](const Verdict& verdict) {
-    note({ExecutiveInput::Certified{verdict.evaluations}});
+    clock_.note({ExecutiveInput::Certified{verdict.evaluations}});
     execution_.gate().certified(verdict.certificates);
   });
 }
@@ -320,7 +281,7 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
     const auto on = execution_.gate().step_of(*refusal.other);
     if (on) event.other_job = jobs_.key(on->job);
   }
-  count_.guard_refusal();
+  clock_.count.guard_refusal();
   publisher_.tell(std::move(event), clock_.now);
   publisher_.tell(
       Alert{Alert::Level::error, "job " + jobs_.key(job) + ": " + sentence(refusal, *cell_) +
@@ -334,7 +295,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   const bool is_within_reach = now != execution_.gate().scene();
   const std::vector<ArmId> arms = arms_in_question(execution_.gate().scene(), now);
   execution_.gate().look_at(now);
-  watch_.follow(query, scene_.scene());
+  watch_.follow(query);
   publisher_.scene_has_changed(clock_.now);
   if (is_within_reach) step(SceneChanged{arms});
 }

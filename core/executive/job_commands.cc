@@ -2,25 +2,25 @@
 #include <utility>
 #include <vector>
 
-#include "core/executive/executive_impl.h"
+#include "core/executive/job_desk.h"
 #include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
 
-Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<TimePoint> at) {
+Result<JobView> JobDesk::cancel(const std::string& key, std::optional<TimePoint> at) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (at) {
     clock_.held.hold(key, *at);
   } else if (Task* task = tasks_.find(*id)) {
-    cancel_task(*task);
+    task_run_.cancel_task(*task);
   } else {
     step(Cancel{*id});
   }
   return publisher_.view(*id);
 }
 
-void Executive::Impl::roll_back(const std::string& key) {
+void JobDesk::roll_back(const std::string& key) {
   const auto id = jobs_.find(key);
   if (!id) return;
   rolled_back_.push_back(*id);
@@ -28,8 +28,7 @@ void Executive::Impl::roll_back(const std::string& key) {
   forget_rolled_back();
 }
 
-// Not within a step, whose effects may speak of it.
-void Executive::Impl::forget_rolled_back() {
+void JobDesk::forget_rolled_back() {
   std::erase_if(rolled_back_, [this](JobId id) {
     const Step* step = scheduler_.find(id);
     if (step != nullptr && !is_terminal(jobs_.state(id))) return false;
@@ -40,7 +39,7 @@ void Executive::Impl::forget_rolled_back() {
   });
 }
 
-Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amendment) {
+Result<JobView> JobDesk::amend(const std::string& key, JobAmendment amendment) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
@@ -53,10 +52,10 @@ Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amen
   return publisher_.view(*id);
 }
 
-Result<JobView> Executive::Impl::replan(const std::string& key) {
+Result<JobView> JobDesk::replan(const std::string& key) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
-  const JobId motion = tasks_.motion_of(*id);
+  const JobId motion = tasks_.present_motion(*id);
   if (const auto why = why_not_replanned(*scheduler_.find(motion))) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
                            "job \"" + key + "\" cannot be replanned: " + *why, key});
@@ -65,20 +64,21 @@ Result<JobView> Executive::Impl::replan(const std::string& key) {
   return publisher_.view(*id);
 }
 
-void Executive::Impl::forget_oldest(JobId ended) {
+void JobDesk::end(JobId ended, TimePoint at) {
+  clock_.count.end_of_a_job(at);
   for (const auto& [oldest, key] : jobs_.end(ended)) forget_job(oldest, key);
 }
 
-void Executive::Impl::forget_job(JobId id, const std::string& key) {
+void JobDesk::forget_job(JobId id, const std::string& key) {
   publisher_.forget(id, key);
   const Task* task = tasks_.find(id);
   for (const JobId motion : task == nullptr ? std::vector{id} : task->motions()) {
-    scheduler_.forget(motion);
+    forget_(motion);
   }
   tasks_.forget(id);
 }
 
-std::optional<JobView> Executive::Impl::job(const std::string& key) const {
+std::optional<JobView> JobDesk::job(const std::string& key) const {
   const auto id = jobs_.find(key);
   if (!id) return std::nullopt;
   JobView view = publisher_.view(*id);

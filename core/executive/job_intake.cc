@@ -101,7 +101,8 @@ std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
 }
 
 JobIntake::Ahead JobIntake::ahead() const {
-  return {scheduler_.predicted_rest(), {}, scheduler_.ways_back(), scheduler_.open_ends()};
+  const State& state = scheduler_.state();
+  return {predicted_rest(state), {}, state.arms.ways_back(), open_ends(state)};
 }
 
 Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {

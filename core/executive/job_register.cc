@@ -81,7 +81,7 @@ JobState JobRegister::state(JobId id) const {
   return task == nullptr ? scheduler_.find(id)->state() : state_of(*task, scheduler_);
 }
 
-bool JobRegister::has_job(ArmId arm) const { return scheduler_.has_job(arm); }
+bool JobRegister::has_job(ArmId arm) const { return scheduler_.head(arm).has_value(); }
 
 Result<JobId> JobRegister::not_ended(const std::string& key) const {
   const auto id = find(key);

@@ -18,19 +18,32 @@ std::string nearest_text(const PlanRefusal& refusal) {
   return "; the nearest that was found: [" + text + "]";
 }
 
+NoPlan none_for(const PlanRefusal& refusal) {
+  using Reason = PlanRefusal::Reason;
+  NoPlan none{"no plan: " + refusal.detail + nearest_text(refusal)};
+  const bool is_at_start = refusal.reason == Reason::start_in_collision;
+  if (refusal.reason == Reason::cancelled) none.cause = NoPlan::Cause::canceled;
+  if (is_at_start || refusal.reason == Reason::goal_in_collision) {
+    none.cause = NoPlan::Cause::at_end;
+  }
+  const bool no_job_moves_it = refusal.proximity && !refusal.proximity->arm_b;
+  if (is_at_start && no_job_moves_it) none.stands_in = refusal.proximity;
+  return none;
+}
+
 }  // namespace
 
 PlanMade made_of(const PlanMotion& asked, PlanAnswer answer) {
   PlanMade made{.step = asked.step, .question = asked.number, .trajectory = nullptr};
-  if (answer) {
+  if (asked.known) {
+    made.none = *asked.known;
+  } else if (!answer) {
+    made.none = none_for(answer.error());
+  } else {
     made.trajectory = answer->timed.trajectory;
     made.goes_through = answer->goes_through;
-  } else {
-    const PlanRefusal& refusal = answer.error();
-    made.why = "no plan: " + refusal.detail + nearest_text(refusal);
-    const bool is_at_start = refusal.reason == PlanRefusal::Reason::start_in_collision;
-    const bool no_job_moves_it = refusal.proximity && !refusal.proximity->arm_b;
-    if (is_at_start && no_job_moves_it) made.stands_in = refusal.proximity;
+    const auto& not_past = answer->not_past;
+    if (not_past) made.not_past = {not_past->left_out, none_for(not_past->why)};
   }
   return made;
 }
@@ -40,15 +53,11 @@ void OpenPlans::ask(const PlanMotion& asked, PlanningScenePtr scene,
   const auto given_up = std::make_shared<std::atomic<bool>>(false);
   const Key key{asked.step, asked.number};
   plans_.insert_or_assign(key, Plan{asked, given_up});
-  const auto answered = [this, key, scene, done = std::move(done)](PlanAnswer answer) {
+  const auto answered = [this, key, done = std::move(done)](PlanAnswer answer) {
     const auto node = plans_.extract(key);
-    const Plan& plan = node.mapped();
-    if (!*plan.given_up) refused_.learn(plan.asked.question, scene, answer);
-    done(made_of(plan.asked, std::move(answer)));
+    done(made_of(node.mapped().asked, std::move(answer)));
   };
-  PlanTask task{asked.question, std::move(scene), given_up, answered};
-  refused_.tell(task);
-  judges_.plan(std::move(task));
+  judges_.plan({asked.question, std::move(scene), given_up, answered, asked.known.has_value()});
 }
 
 void OpenPlans::give_up(JobId job) {

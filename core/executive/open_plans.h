@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "core/executive/executive.h"
-#include "core/executive/refused_plans.h"
 #include "core/jobs/inputs.h"
 
 namespace armloom {
 
-// Returns the scheduler's input for the answer.
+// Returns the scheduler's input for the answer. Ignores the answer if PlanMotion::known is set.
 [[nodiscard]] PlanMade made_of(const PlanMotion& asked, PlanAnswer answer);
 
 // The open plans of steps.
@@ -35,7 +34,6 @@ class OpenPlans {
     std::shared_ptr<std::atomic<bool>> given_up;
   };
   std::map<Key, Plan> plans_;
-  RefusedPlans refused_;
 };
 
 }  // namespace armloom

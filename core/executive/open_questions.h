@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/executive/drawings.h"
@@ -40,6 +41,10 @@ class OpenQuestions {
     return true;
   }
 
+  // The job is published as being checked.
+  void note_shown(JobId job) { shown_.insert(job); }
+  [[nodiscard]] std::set<JobId> take_shown() { return std::exchange(shown_, {}); }
+
   [[nodiscard]] OpenPlans& plans() { return plans_; }
   [[nodiscard]] Drawings& drawings() { return drawings_; }
   // For what-if queries of clients.
@@ -54,6 +59,7 @@ class OpenQuestions {
 
   JudgementService& service_;
   std::optional<Question> asked_;
+  std::set<JobId> shown_;
   OpenPlans plans_;
   Drawings drawings_;
 };

@@ -24,11 +24,11 @@ struct PlanTask {
   PlanningScenePtr scene;
   std::shared_ptr<std::atomic<bool>> cancelled;
   std::function<void(PlanAnswer)> done;
-  std::optional<PlanRefusal> known = {};  // the cached answer, if there is one (RefusedPlans)
+  bool is_known = false;  // the requester knows that there is no path: nothing is searched
 };
 // Thread-safe.
 [[nodiscard]] inline PlanAnswer answer_of(const PlanTask& task) {
-  if (task.known) return tl::unexpected(*task.known);
+  if (task.is_known) return tl::unexpected(PlanRefusal{PlanRefusal::Reason::not_found, {}});
   return answer_plan(task.scene, task.question, task.cancelled.get());
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/executive/arm_reports.h"
 #include "core/executive/authority_gate.h"
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
@@ -58,7 +59,7 @@ class Publisher {
   // change of "all arms are stopped" or of the speed override always at once.
   void queue_may_have_changed(TimePoint now);
   void tell_queue(TimePoint now);
-  [[nodiscard]] bool is_behind() const { return queue_is_old_ || scene_is_old_; }
+  [[nodiscard]] bool is_behind() const { return queue_pace_.is_behind || scene_pace_.is_behind; }
   void tell_tick(TimePoint now);
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
@@ -70,11 +71,10 @@ class Publisher {
 
   // Returns the view of a job. A job of an earlier session keeps its time of submission.
   [[nodiscard]] JobView view(JobId job) const;
-  [[nodiscard]] std::vector<ArmView> arms() const;
+  [[nodiscard]] const ArmReports& arms() const { return arms_; }
 
  private:
   void note(JobView view);
-  void look_at_arms();
   void publish(TimePoint now);
   void publish_scene();
   void publish_signals();
@@ -82,35 +82,32 @@ class Publisher {
   [[nodiscard]] const QueueView& queue();
   void tell_stopped(TimePoint now);
   void tell_queue(QueueView queue, TimePoint now);
-  [[nodiscard]] bool all_stopped() const;
-  [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
-  [[nodiscard]] ArmState state_of(ArmId arm) const;
-  [[nodiscard]] ArmStatus status_of(ArmId arm) const;
-  [[nodiscard]] ArmView view_of_arm(ArmId arm, const ArmStatus& status) const;
-  [[nodiscard]] std::vector<ArmAuthority> authorities() const;
+
+  // Of what changes often and is large: the next report is due after a time that grows with its
+  // size.
+  struct Pace {
+    bool is_behind = false;
+    TimePoint next{};
+  };
+  // What observers were told last.
+  struct Told {
+    bool rest = false;
+    std::vector<ArmId> stops = {};
+    QueueView queue = {};
+    std::uint64_t scene = 0;  // version
+  };
 
   Shown shown_;
   Observer& observer_;
   std::uint64_t seq_ = 0;
-  bool told_rest_ = false;
   std::shared_ptr<StatusBoard> board_ = std::make_shared<StatusBoard>();
   JobLedger jobs_;
   std::vector<StatusBoard::KeyOfJob> gone_;  // forgotten since the board was published
   QueueLists lists_;
-  std::set<JobId> explained_;    // jobs whose wait texts may change without a change of the job
-  std::vector<ArmStatus> arms_;  // ArmId; as published
-  std::vector<ArmStatus> told_arms_;  // ArmId
-  std::vector<ArmId> told_stops_;
-  QueueView told_queue_;
-  bool queue_is_old_ = false;
-  TimePoint next_queue_{};
-  bool scene_is_old_ = false;
-  TimePoint next_scene_{};
-  std::uint64_t told_scene_ = 0;                                              // version
-  static constexpr std::size_t kSmallScene = 100;                             // objects
-  static constexpr Duration kForEachObject = std::chrono::microseconds(100);  // between two events
-  static constexpr std::size_t kShortQueue = 100;                             // jobs
-  static constexpr Duration kForEachJob = std::chrono::microseconds(100);     // between two lists
+  std::set<JobId> explained_;  // jobs whose wait texts may change without a change of the job
+  ArmReports arms_;
+  Told told_;
+  Pace queue_pace_, scene_pace_;
 };
 
 }  // namespace armloom

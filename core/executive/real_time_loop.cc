@@ -84,8 +84,10 @@ class RealTimeLoop::Impl final : public JudgementService {
   ~Impl() override {
     // The workers first: they post into the loop's inbox.
     ending_.request_stop();
-    for (Looker* looker : {&judge_, &certifier_, &considerer_, &artist_}) looker->worker.end();
-    for (Worker* worker : {&planner_, &drafter_}) worker->end();
+    for (Looker* looker :
+         {&threads_.judge, &threads_.certifier, &threads_.considerer, &threads_.artist})
+      looker->worker.end();
+    for (Worker* worker : {&threads_.planner, &threads_.drafter}) worker->end();
     edits_.end();
     if (!loop_.joinable()) return;
     loop_.request_stop();
@@ -100,7 +102,7 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   // The scheduler has at most one question open.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    asked_ = judge(judge_, std::move(question), std::move(scene), std::move(done));
+    asked_ = judge(threads_.judge, std::move(question), std::move(scene), std::move(done));
   }
   void interrupt() override {
     if (asked_) asked_->interrupt();
@@ -112,7 +114,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   // Nor does the guard's wait for those of jobs.
   void certify(Question question, PlanningScenePtr scene,
                std::function<void(Verdict)> done) override {
-    judge(certifier_, std::move(question), std::move(scene), std::move(done));
+    judge(threads_.certifier, std::move(question), std::move(scene), std::move(done));
   }
 
   // On a thread and with a checker of its own, as all that clients ask: however long it takes, no
@@ -120,7 +122,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   bool consider(Question question, PlanningScenePtr scene,
                 std::function<void(Verdict)> done) override {
     if (open_.considered >= kConsideredMax) return false;
-    judge(considerer_, std::move(question), std::move(scene),
+    judge(threads_.considerer, std::move(question), std::move(scene),
           counted(open_.considered, std::move(done)));
     return true;
   }
@@ -128,28 +130,29 @@ class RealTimeLoop::Impl final : public JudgementService {
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     if (open_.drawings >= kDrawingsMax) return false;
     const auto drawn = counted(open_.drawings, std::move(done));
-    artist_.worker.post([this, drawn, drawing = std::move(drawing), scene = std::move(scene)] {
+    threads_.artist.worker.post([this, drawn, drawing = std::move(drawing),
+                                 scene = std::move(scene)] {
       CheckProgress progress;
       const std::stop_callback at_end(ending_.get_token(), [&progress] { progress.interrupt(); });
-      post_urgent([drawn, diagram = artist_.checker.in(scene).draw(drawing, &progress)](
+      post_urgent([drawn, diagram = threads_.artist.checker.in(scene).draw(drawing, &progress)](
                       Executive&) { drawn(diagram); });
     });
     return true;
   }
 
-  void plan(PlanTask task) override { plan(planner_, std::move(task)); }
+  void plan(PlanTask task) override { plan(threads_.planner, std::move(task)); }
 
   bool draft(PlanTask task) override {
     if (open_.drafts >= kDraftsMax) return false;
     task.done = counted(open_.drafts, std::move(task.done));
-    plan(drafter_, std::move(task));
+    plan(threads_.drafter, std::move(task));
     return true;
   }
 
   bool compute(std::function<void()> work, std::function<void()> done) override {
     if (open_.considered >= kConsideredMax) return false;
     ++open_.considered;
-    considerer_.worker.post([this, work = std::move(work), done = std::move(done)] {
+    threads_.considerer.worker.post([this, work = std::move(work), done = std::move(done)] {
       work();
       post_urgent([this, done](Executive&) {
         --open_.considered;
@@ -264,12 +267,11 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   std::atomic<double> speed_;
   std::stop_source ending_;
-  Looker judge_;
-  Looker certifier_;
-  Looker considerer_;
-  Looker artist_;
-  Worker planner_;
-  Worker drafter_;
+  struct Threads {
+    Looker judge, certifier, considerer, artist;
+    Worker planner, drafter;
+  };
+  Threads threads_;
   SceneEdits edits_{[this](SceneEdits::Apply apply) {
     post([apply = std::move(apply)](Executive& executive) {
       apply(executive.scene());

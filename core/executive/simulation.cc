@@ -44,7 +44,7 @@ class Simulation::Judge final : public JudgementService {
     PlanAnswer planned = answer_of(task);
     planning_.wall += std::chrono::steady_clock::now() - begun;
     planning_.evaluations += planned ? planned->way.evaluations : planned.error().evaluations;
-    if (!task.known) ++planning_.plans;
+    if (!task.is_known) ++planning_.plans;
     answer([planned = std::move(planned), done = std::move(task.done)] { done(planned); },
            kSimulatedPlanning);
   }

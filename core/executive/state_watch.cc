@@ -94,12 +94,12 @@ bool StateWatch::is_due(TimePoint now) {
 bool StateWatch::look(const Configuration& measured, const std::vector<bool>& moving,
                       TimePoint now) {
   const bool is_seen = seen_.size() == measured.size() && seen_ == measured;
-  if (is_seen && near_is_current_) return false;
+  if (is_seen && near_.is_current) return false;
   seen_ = measured;
-  near_is_current_ = period_ >= kShortPeriod || now >= near_due_;
-  if (near_is_current_) {
-    near_ = query_.closest_apart(measured, kHorizon_m);
-    near_due_ = now + kNearPeriod;
+  near_.is_current = period_ >= kShortPeriod || now >= near_.due;
+  if (near_.is_current) {
+    near_.pairs = query_.closest_apart(measured, kHorizon_m);
+    near_.due = now + kNearPeriod;
   }
   const Configuration* state[] = {&measured};
   std::vector<Proximity> too_close;

@@ -46,7 +46,7 @@ class StateWatch {
                                                        const std::vector<bool>& stopping,
                                                        const AuthorityGate& gate);
   // Results of the last look() at a changed state.
-  [[nodiscard]] const ClearanceQuery::Closest& near() const { return near_; }
+  [[nodiscard]] const ClearanceQuery::Closest& near() const { return near_.pairs; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
 
  private:
@@ -59,9 +59,12 @@ class StateWatch {
   PlanningScenePtr scene_;
   std::unique_ptr<ReachCheck> reaches_;  // in scene_; made on first use
   Configuration seen_;
-  TimePoint near_due_{};
-  bool near_is_current_ = false;
-  ClearanceQuery::Closest near_;
+  struct Near {
+    ClearanceQuery::Closest pairs;
+    TimePoint due{};
+    bool is_current = false;
+  };
+  Near near_;
   std::vector<MonitorFinding> found_;
 };
 

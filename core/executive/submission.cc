@@ -4,18 +4,22 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/batch.h"
-#include "core/executive/executive_impl.h"
+#include "core/executive/job_desk.h"
 
 namespace armloom {
 
-Result<JobView> Executive::Impl::submit(JobRequest request) {
+JobDesk::JobDesk(const Modules& modules, const JobIntake& intake, TaskRun& tasks,
+                 std::function<void(JobId)> forget)
+    : Modules(modules), intake_(intake), task_run_(tasks), forget_(std::move(forget)) {}
+
+Result<JobView> JobDesk::submit(JobRequest request) {
   JobIntake::Ahead ahead = intake_.ahead();
   auto prepared = intake_.prepare(std::move(request), ahead);
   if (!prepared) return failure(std::move(prepared.error()));
   return accept(std::move(*prepared));
 }
 
-std::optional<Executive::BatchAnswers> Executive::Impl::go_on(Batch& batch) {
+std::optional<Executive::BatchAnswers> JobDesk::go_on(Executive::Batch& batch) {
   if (batch.atomic && !batch.prepared) {
     auto prepared = prepare_all(std::move(batch.requests));
     if (!prepared) return failure(std::move(prepared.error()));
@@ -31,7 +35,7 @@ std::optional<Executive::BatchAnswers> Executive::Impl::go_on(Batch& batch) {
   return std::move(batch.answers);
 }
 
-Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobRequest> requests) {
+Result<std::vector<PreparedJob>> JobDesk::prepare_all(std::vector<JobRequest> requests) {
   JobIntake::Ahead ahead = intake_.ahead();
   std::vector<PreparedJob> all;
   Problems problems;
@@ -47,8 +51,8 @@ Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobReq
   return all;
 }
 
-JobView Executive::Impl::accept(PreparedJob prepared) {
-  if (!prepared.steps.empty()) return accept_task(std::move(prepared));
+JobView JobDesk::accept(PreparedJob prepared) {
+  if (!prepared.steps.empty()) return task_run_.accept_task(std::move(prepared));
   const JobId id = scheduler_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};
   if (label.key.empty()) label.key = jobs_.free_key(id);
@@ -58,7 +62,7 @@ JobView Executive::Impl::accept(PreparedJob prepared) {
   return publisher_.view(id);
 }
 
-void Executive::Impl::enter(Submit submitted, JobLabel label) {
+void JobDesk::enter(Submit submitted, JobLabel label) {
   // Alternatives are all of its trajectories where there are any.
   label.bytes = submitted.alternatives.empty() ? submitted.trajectory->bytes()
                                                : bytes_of(submitted.alternatives);
@@ -67,7 +71,7 @@ void Executive::Impl::enter(Submit submitted, JobLabel label) {
   step(submitted);
 }
 
-std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> jobs) {
+std::vector<Result<JobView>> JobDesk::restore(std::vector<RestoredJob> jobs) {
   std::vector<Result<JobView>> answers;
   for (RestoredJob& job : jobs) {
     JobIntake::Ahead ahead = intake_.ahead();
@@ -79,7 +83,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     }
     JobLabel label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     if (!prepared->steps.empty()) {
-      enter_task(std::move(*prepared), job.id, std::move(label), true);
+      task_run_.enter_task(std::move(*prepared), job.id, std::move(label), true);
       answers.push_back(publisher_.view(job.id));
       continue;
     }

@@ -74,9 +74,9 @@ JobId TaskBook::told(JobId job) const {
   return id == id_of_motion_.end() ? job : id->second;
 }
 
-JobId TaskBook::motion_of(JobId id) const {
-  const Task* task = find(id);
-  return task == nullptr ? id : task->next_motion().value_or(task->motions().back());
+JobId TaskBook::present_motion(JobId job) const {
+  const Task* task = find(job);
+  return task == nullptr ? job : task->next_motion().value_or(task->motions().back());
 }
 
 void TaskBook::set_motion(Task& task, std::size_t step, JobId motion) {

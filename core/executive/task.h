@@ -73,8 +73,8 @@ class TaskBook {
   [[nodiscard]] Task* find(JobId motion);
   // Returns the job that clients know: the first motion of the task, or the job itself.
   [[nodiscard]] JobId told(JobId job) const;
-  // Returns the job of the present or next motion of a task, or of its last one; or the job itself.
-  [[nodiscard]] JobId motion_of(JobId id) const;
+  // Returns the present or next motion of a task, or its last one; or the job itself.
+  [[nodiscard]] JobId present_motion(JobId job) const;
   // Names the job of a motion.
   void set_motion(Task& task, std::size_t step, JobId motion);
   void forget(JobId id);

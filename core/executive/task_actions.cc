@@ -3,14 +3,23 @@
 #include <span>
 #include <utility>
 
-#include "core/executive/executive_impl.h"
+#include "core/executive/task_run.h"
 #include "core/executive/task_view.h"
 #include "core/jobs/waits.h"
 
 namespace armloom {
 
-// Does the action. Returns false if it is not done yet.
-Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
+TaskActions::TaskActions(const Modules& modules, std::function<void()> go_on)
+    : Modules(modules), go_on_(std::move(go_on)) {}
+
+
+bool TaskActions::takes_wake() {
+  if (clock_.now < wakes_at_) return false;
+  wakes_at_ = TimePoint::max();
+  return true;
+}
+
+Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
   if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
     const auto has_arm = has_arm_of(task, *cell_->find_link(attach->link));
     if (!has_arm || !*has_arm) return has_arm;
@@ -60,7 +69,7 @@ Result<bool> Executive::Impl::act(Task& task, const StepRequest& request) {
 
 // Returns true if no other job moves the arm of the link. Otherwise the task waits for that, or
 // fails if it would wait for a job that may wait for this task.
-Result<bool> Executive::Impl::has_arm_of(Task& task, LinkId link) {
+Result<bool> TaskActions::has_arm_of(Task& task, LinkId link) {
   const ArmId arm = *cell_->link(link).arm;
   const std::string& name = cell_->arm(arm).name;
   const auto head = scheduler_.head(arm);
@@ -94,7 +103,7 @@ Result<bool> Executive::Impl::has_arm_of(Task& task, LinkId link) {
 
 // An output is set when its device has reported the value. While there is no connection, the step
 // waits.
-bool Executive::Impl::set_output(Task& task, const std::string& name, const SignalValue& value) {
+bool TaskActions::set_output(Task& task, const std::string& name, const SignalValue& value) {
   const SignalView& signal = signals_.views()[cell_->io.find_signal(name)->index()];
   if (signal.is_connected && signal.value == value && !signal.commanded) return true;
   if (signal.is_connected && signal.commanded != value) (void)signals_.command(name, value);
@@ -106,8 +115,8 @@ bool Executive::Impl::set_output(Task& task, const std::string& name, const Sign
   return false;
 }
 
-Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& object,
-                                              PlanningScene::Content content) {
+Result<bool> TaskActions::changed_holding(Task& task, const std::string& object,
+                                          PlanningScene::Content content) {
   if (auto done = scene_.change(std::move(content)); !done) return failure(std::move(done.error()));
   TouchOf next = task.touch;
   next[object] = touch_in(*scene_.scene(), object);
@@ -116,14 +125,14 @@ Result<bool> Executive::Impl::changed_holding(Task& task, const std::string& obj
   if (log == nullptr) return true;
   task.awaits_record = true;
   log->has_moved(task.id, place_of(*scene_.scene(), object), [this, id = task.id] {
-    note({ExecutiveInput::StartWritten{only_step(id)}});
+    clock_.note({ExecutiveInput::StartWritten{only_step(id)}});
     if (Task* known = tasks_.find(id)) known->awaits_record = false;
-    go_on_with_tasks();
+    go_on_();
   });
   return true;
 }
 
-Result<CollisionObject> Executive::Impl::detach(const std::string& object) {
+Result<CollisionObject> TaskActions::detach(const std::string& object) {
   const auto carrier = carrier_of(*scene_.scene(), object);
   if (!carrier) {
     const auto found = std::ranges::find(scene_.objects(), object, &CollisionObject::name);
@@ -161,13 +170,13 @@ Result<CollisionObject> Executive::Impl::detach(const std::string& object) {
 }
 
 // Sets what the task allows to touch.
-void Executive::Impl::set_touch(Task& task, const TouchOf& next) {
+void TaskActions::set_touch(Task& task, const TouchOf& next) {
   const auto changed = touch_left_.change(task.touch, next, arms_of(task));
   for (const std::string& object : changed) show_touch(object);
 }
 
 // Returns the arms that the task moves.
-std::vector<ArmId> Executive::Impl::arms_of(const Task& task) const {
+std::vector<ArmId> TaskActions::arms_of(const Task& task) const {
   std::vector<ArmId> arms;
   for (const JobId motion : task.motions()) {
     const auto& moved = scheduler_.find(motion)->trajectory->arms();
@@ -176,13 +185,12 @@ std::vector<ArmId> Executive::Impl::arms_of(const Task& task) const {
   return arms;
 }
 
-// These arms may have left the objects at which ended steps let them be.
-void Executive::Impl::clear_left_touch(const std::vector<ArmId>& arms) {
+void TaskActions::clear_left_touch(const std::vector<ArmId>& arms) {
   for (const std::string& object : touch_left_.of(arms)) show_touch(object);
 }
 
 // Allows in the scene what the steps allow at present, and what ended steps left.
-void Executive::Impl::show_touch(const std::string& object) {
+void TaskActions::show_touch(const std::string& object) {
   Touch touch = touch_left_.allowed(scene_.scene(), execution_.motions().measured(), object,
                                     tasks_.touch_of(object));
   if (touch_in(*scene_.scene(), object) == touch) return;
@@ -190,8 +198,7 @@ void Executive::Impl::show_touch(const std::string& object) {
   (void)scene_.change(touching(*scene_.scene(), object, std::move(touch)));
 }
 
-// Fires the triggers of motions that have come so far.
-void Executive::Impl::fire_triggers(const MotionReport& report) {
+void TaskActions::fire_triggers(const MotionReport& report) {
   Task* task = tasks_.find(report.step.job);
   if (task == nullptr || task->end) return;
   for (TaskStep& step : task->steps) {

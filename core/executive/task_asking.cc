@@ -5,7 +5,7 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/arms_of.h"
-#include "core/executive/executive_impl.h"
+#include "core/executive/inquiry_desk.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/executive/task_preview.h"
 #include "core/executive/task_view.h"
@@ -26,7 +26,7 @@ std::string place_of_motion(const StepRequest& step) {
 
 }  // namespace
 
-struct Executive::Impl::OpenStepsPlan {
+struct InquiryDesk::OpenStepsPlan {
   StepsInquiry inquiry;
   TaskPreview preview;
   std::vector<ArmId> arms;  // of the task: they stay where its steps leave them
@@ -62,7 +62,7 @@ struct Executive::Impl::OpenStepsPlan {
   void refuse(PlanRefusal why);
 };
 
-void Executive::Impl::OpenStepsPlan::refuse(PlanRefusal why) {
+void InquiryDesk::OpenStepsPlan::refuse(PlanRefusal why) {
   const std::string place = place_of_step(preview.index());
   const auto& motion = std::get<MotionStepRequest>(request().what);
   RefusedInquiry refused{std::move(why), place};
@@ -75,8 +75,8 @@ void Executive::Impl::OpenStepsPlan::refuse(PlanRefusal why) {
   end();
 }
 
-void Executive::Impl::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
-                           std::function<void(Result<StepsPlan>)> done) {
+void InquiryDesk::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
+                       std::function<void(Result<StepsPlan>)> done) {
   JobIntake::Ahead ahead = intake_.ahead();
   const Configuration at = ahead.rest;
   auto prepared = intake_.prepare(inquiry.job, ahead);
@@ -88,7 +88,7 @@ void Executive::Impl::plan(StepsInquiry inquiry, std::shared_ptr<std::atomic<boo
                     std::move(arms), std::move(cancelled), std::move(done)}));
 }
 
-void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
+void InquiryDesk::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
   const auto arrived = [this, open](Result<bool> is_motion) {
     open->add_actions();
     if (!is_motion) return open->refuse(std::move(is_motion.error()));
@@ -99,7 +99,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenStepsPlan>& open) {
 }
 
 // Plans the present motion.
-void Executive::Impl::plan_motion(const std::shared_ptr<OpenStepsPlan>& open) {
+void InquiryDesk::plan_motion(const std::shared_ptr<OpenStepsPlan>& open) {
   const TaskPreview& preview = open->preview;
   const PreparedMotion& motion = preview.motion();
   if (motion.goals.empty()) {
@@ -130,8 +130,8 @@ void Executive::Impl::plan_motion(const std::shared_ptr<OpenStepsPlan>& open) {
 // Goes on to the next motion of the preview, which `owner` owns. Makes the scenes on a worker: each
 // costs up to some milliseconds. `arrived` is called on the strand. Returns false if too many
 // questions are open.
-bool Executive::Impl::go_on(TaskPreview& preview, std::shared_ptr<void> owner,
-                            std::function<void(Result<bool>)> arrived) {
+bool InquiryDesk::go_on(TaskPreview& preview, std::shared_ptr<void> owner,
+                        std::function<void(Result<bool>)> arrived) {
   const auto found = std::make_shared<Result<bool>>(false);
   return questions_.service().compute(
       [&preview, owner, found] { *found = preview.go_on(); },
@@ -140,7 +140,7 @@ bool Executive::Impl::go_on(TaskPreview& preview, std::shared_ptr<void> owner,
 
 // ---- Checks ----
 
-struct Executive::Impl::OpenStepsCheck {
+struct InquiryDesk::OpenStepsCheck {
   PreparedJob job;
   TaskPreview preview;
   std::vector<ArmId> arms;  // of the task
@@ -149,8 +149,8 @@ struct Executive::Impl::OpenStepsCheck {
   bool is_first = true;
 };
 
-void Executive::Impl::check_steps(PreparedJob job, Configuration at,
-                                  std::function<void(Result<CheckView>)> done) {
+void InquiryDesk::check_steps(PreparedJob job, Configuration at,
+                              std::function<void(Result<CheckView>)> done) {
   TaskPreview preview(job.steps, {scene_.scene(), touch_left_}, std::move(at));
   std::vector<ArmId> arms = armloom::arms_of(job.steps);
   CheckView view{.scene_version = scene_.version()};
@@ -158,7 +158,7 @@ void Executive::Impl::check_steps(PreparedJob job, Configuration at,
       std::move(job), std::move(preview), std::move(arms), std::move(done), std::move(view)}));
 }
 
-void Executive::Impl::check_next(const std::shared_ptr<OpenStepsCheck>& open) {
+void InquiryDesk::check_next(const std::shared_ptr<OpenStepsCheck>& open) {
   const auto arrived = [this, open](const Result<bool>& is_motion) {
     if (!is_motion) {
       add_step(open->view, failed_step(is_motion.error()), open->preview.index(), open->is_first);
@@ -179,7 +179,7 @@ void Executive::Impl::check_next(const std::shared_ptr<OpenStepsCheck>& open) {
 
 // The first motion is submitted as the job would be. A further motion is submitted when the arms of
 // the job are where the motion before leaves them.
-Trial Executive::Impl::trial_of(const OpenStepsCheck& open) {
+Trial InquiryDesk::trial_of(const OpenStepsCheck& open) {
   const TaskPreview& preview = open.preview;
   Scheduler scheduler = open.is_first
                             ? scheduler_

@@ -4,8 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "core/executive/executive_impl.h"
+#include "core/executive/arms_of.h"
 #include "core/executive/task_intake.h"
+#include "core/executive/task_run.h"
 #include "core/executive/task_view.h"
 #include "core/jobs/waits.h"
 
@@ -37,7 +38,13 @@ TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePo
 
 }  // namespace
 
-JobView Executive::Impl::accept_task(PreparedJob prepared) {
+TaskRun::TaskRun(const Modules& modules, const JobIntake& intake, std::function<void(JobId)> ended)
+    : Modules(modules),
+      intake_(intake),
+      actions_(modules, [this] { go_on_with_tasks(); }),
+      ended_(std::move(ended)) {}
+
+JobView TaskRun::accept_task(PreparedJob prepared) {
   const JobId id = scheduler_.next_job();
   JobLabel label{prepared.key, prepared.name};
   if (label.key.empty()) label.key = jobs_.free_key(id);
@@ -45,8 +52,7 @@ JobView Executive::Impl::accept_task(PreparedJob prepared) {
   return publisher_.view(id);
 }
 
-void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
-                                 bool is_held_over) {
+void TaskRun::enter_task(PreparedJob prepared, JobId id, JobLabel label, bool is_held_over) {
   label.bytes = prepared.bytes();
   jobs_.add(id, std::move(label));
   Task made{.id = id, .steps = {}};
@@ -73,7 +79,7 @@ void Executive::Impl::enter_task(PreparedJob prepared, JobId id, JobLabel label,
 
 // Goes on with each task that has its turn: the first of the queue of an arm, or one whose last
 // motion has ended.
-void Executive::Impl::go_on_with_tasks() {
+void TaskRun::go_on_with_tasks() {
   if (tasks_.empty() || tasks_are_busy_) return;
   tasks_are_busy_ = true;
   std::set<JobId> told;
@@ -99,7 +105,7 @@ void Executive::Impl::go_on_with_tasks() {
 }
 
 // Returns true if the task has advanced.
-bool Executive::Impl::go_on(Task& task) {
+bool TaskRun::go_on(Task& task) {
   if (task.end || task.awaits_record) return false;
   if (std::exchange(task.is_present_done, false)) {
     task.since.reset();
@@ -117,7 +123,7 @@ bool Executive::Impl::go_on(Task& task) {
     return true;
   }
   if (task.since && clock_.now < *task.since) {
-    wake_at(*task.since);
+    actions_.wake_at(*task.since);
     return false;
   }
   if (present.job) return go_on_with_motion(task, present);
@@ -131,7 +137,7 @@ bool Executive::Impl::go_on(Task& task) {
   if (!task.began_at) task.began_at = clock_.now;
   const std::vector<Wait> waited = std::exchange(task.waits_on, {});
   if (!task.since) task.since = clock_.now;
-  const auto done = act(task, present.request);
+  const auto done = actions_.act(task, present.request);
   if (!done) {
     if (waits_to_retry(task, text_of(done.error()))) return false;
     fail_task(task, Reason::step_failed, step_text(task) + text_of(done.error()));
@@ -151,12 +157,12 @@ bool Executive::Impl::go_on(Task& task) {
 }
 
 // Returns false if the present step, which has failed, is not to be tried again.
-bool Executive::Impl::waits_to_retry(Task& task, const std::string& why) {
+bool TaskRun::waits_to_retry(Task& task, const std::string& why) {
   TaskStep& step = task.steps[task.at];
   if (step.retried >= step.request.retry) return false;
   ++step.retried;
   task.since = clock_.now + kRetryPause;
-  wake_at(*task.since);
+  actions_.wake_at(*task.since);
   task.waits_on = {{.kind = Wait::Kind::action,
                     .detail = "retry " + std::to_string(step.retried) + " of " +
                               std::to_string(step.request.retry) + " begins in " +
@@ -167,7 +173,7 @@ bool Executive::Impl::waits_to_retry(Task& task, const std::string& why) {
 
 // Returns the first motion to come, or under way, that has ended without success. Of those to come,
 // it was in a deadlock.
-const Step* Executive::Impl::lost_motion(const Task& task) const {
+const Step* TaskRun::lost_motion(const Task& task) const {
   for (std::size_t i = task.at; i < task.steps.size(); ++i) {
     const auto& motion = task.steps[i].job;
     const Step* step = motion ? scheduler_.find(*motion) : nullptr;
@@ -177,10 +183,10 @@ const Step* Executive::Impl::lost_motion(const Task& task) const {
 }
 
 // Publishes that the task waits for a resume, if an arm of its next motion is stopped.
-void Executive::Impl::tell_stop(Task& task, JobId next) {
+void TaskRun::tell_stop(Task& task, JobId next) {
   if (!task.began_at) return;  // the motion says so itself
   for (const ArmId arm : scheduler_.find(next)->trajectory->arms()) {
-    const auto& stop = scheduler_.stop_of(arm);
+    const auto& stop = scheduler_.state().arms.stop_of(arm);
     if (!stop) continue;
     Wait wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
     if (task.waits_on.size() == 1 && task.waits_on.front().same_cause(wait)) return;
@@ -189,7 +195,7 @@ void Executive::Impl::tell_stop(Task& task, JobId next) {
   }
 }
 
-bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
+bool TaskRun::go_on_with_motion(Task& task, TaskStep& present) {
   const Step& motion = *scheduler_.find(*present.job);
   if (motion.has_ended()) {
     if (motion.state() == JobState::succeeded) {
@@ -212,14 +218,14 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
   if (!scheduler_.has_turn_for_actions(*present.job) || !is_recorded(task)) return false;
   TrajectoryPtr way;
   if (const auto* gripper = std::get_if<GripperStepRequest>(&present.request.what)) {
-    auto made = gripper_motion(*gripper, *cell_, scheduler_.rest());
+    auto made = gripper_motion(*gripper, *cell_, scheduler_.state().arms.rest());
     if (!made) {
       fail_task(task, Reason::step_failed, step_text(task) + text_of(made.error()));
       return true;
     }
     way = *std::move(made);
   }
-  set_touch(task, present.touch);
+  actions_.set_touch(task, present.touch);
   step(ActionsDone{*present.job, std::move(way)});
   return true;
 }
@@ -227,7 +233,7 @@ bool Executive::Impl::go_on_with_motion(Task& task, TaskStep& present) {
 // ---- Ends ----
 
 // The task has ended. Its motions that have not begun end with it.
-void Executive::Impl::end_task(Task& task, TaskEnd end) {
+void TaskRun::end_task(Task& task, TaskEnd end) {
   if (task.end) return;
   task.end = std::move(end);
   task.waits_on.clear();
@@ -236,17 +242,16 @@ void Executive::Impl::end_task(Task& task, TaskEnd end) {
     const Step* step = scheduler_.find(motion);
     if (step != nullptr && !step->has_ended()) this->step(Cancel{motion});
   }
-  set_touch(task, {});
-  count_.end_of_a_job(clock_.now);
+  actions_.set_touch(task, {});
   tell_task(task.id);
-  forget_oldest(task.id);
+  ended_(task.id);
 }
 
-void Executive::Impl::fail_task(Task& task, Reason reason, std::string detail) {
+void TaskRun::fail_task(Task& task, Reason reason, std::string detail) {
   end_task(task, {JobState::failed, reason, std::move(detail), clock_.now});
 }
 
-void Executive::Impl::cancel_task(Task& task) {
+void TaskRun::cancel_task(Task& task) {
   const auto next = task.next_motion();
   const Step* motion = next ? scheduler_.find(*next) : nullptr;
   const bool is_moving = motion != nullptr && motion->has_authority();
@@ -256,10 +261,10 @@ void Executive::Impl::cancel_task(Task& task) {
                   clock_.now});
 }
 
-void Executive::Impl::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
+void TaskRun::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
 
 // A motion of a task has changed.
-void Executive::Impl::motion_changed(Task& task, JobId motion) {
+void TaskRun::motion_changed(Task& task, JobId motion) {
   const Step& step = *scheduler_.find(motion);
   if (step.times.started_at && !task.began_at) task.began_at = step.times.started_at;
   if (task.end) return;
@@ -271,27 +276,25 @@ void Executive::Impl::motion_changed(Task& task, JobId motion) {
   if (task.next_motion() == motion) tell_task(task.id);
 }
 
-bool Executive::Impl::any_stopped(const Task& task) const {
+bool TaskRun::any_stopped(const Task& task) const {
   const auto& arms = scheduler_.find(task.motions().back())->trajectory->arms();
   return std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stopped(arm); });
 }
 
 // The first action is done only when it is on disk that the task has begun: after a restart,
 // nothing is done twice.
-bool Executive::Impl::is_recorded(const Task& task) {
+bool TaskRun::is_recorded(const Task& task) {
   if (task.began_at) return true;
   const auto written = [this](JobId id) {
-    note({ExecutiveInput::StartWritten{only_step(id)}});
+    clock_.note({ExecutiveInput::StartWritten{only_step(id)}});
     step(StartRecorded{only_step(id)});
     go_on_with_tasks();
   };
   return execution_.record_start(task.id, written);
 }
 
-void Executive::Impl::wake_at(TimePoint when) { task_wakes_at_ = std::min(task_wakes_at_, when); }
-
 // A task that has begun is interrupted at its present step, even if the next motion has not begun.
-void Executive::Impl::interrupt(bool keeps_waiting) {
+void TaskRun::interrupt(bool keeps_waiting) {
   const bool was_busy = std::exchange(tasks_are_busy_, true);
   for (Task* task : tasks_.begun()) {
     TaskEnd end{JobState::interrupted, Reason::server_restart,

@@ -1,9 +1,9 @@
-// The monitor and the links: what the executive observes, and how it acts on it.
+#include "core/executive/watching.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "core/executive/arms_of.h"
-#include "core/executive/executive_impl.h"
 #include "core/executive/observe.h"
 #include "core/trajectory/set_joints.h"
 
@@ -24,8 +24,18 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
 
 }  // namespace
 
-// A motion that ended away from its goal has failed.
-void Executive::Impl::take(const MotionReport& report) {
+ArmWatch::ArmWatch(const Modules& modules, Calls calls)
+    : Modules(modules),
+      calls_(std::move(calls)),
+      watch_(cell_, scene_.scene()),
+      links_(cell_->arms.size()) {}
+
+void ArmWatch::tick() {
+  watch_links();
+  if (clock_.monitored && watch_.is_due(clock_.now)) watch();
+}
+
+void ArmWatch::take(const MotionReport& report) {
   const Step* moved = scheduler_.find(report.step.job);
   const bool is_watched = clock_.monitored && moved != nullptr;
   if (report.kind != MotionReport::Kind::finished || !is_watched) return step(report);
@@ -44,12 +54,12 @@ void Executive::Impl::take(const MotionReport& report) {
   act_on(found);
 }
 
-void Executive::Impl::watch() {
+void ArmWatch::watch() {
   publisher_.tell_watch();
   const Motions& motions = execution_.motions();
   Observation seen = observed(motions, execution_.gate(), cell_->arms.size(), clock_.now);
   for (ArmId arm : all_arms(*cell_)) {
-    seen.arms[arm.index()].is_stopped = scheduler_.stop_of(arm).has_value();
+    seen.arms[arm.index()].is_stopped = scheduler_.state().arms.stop_of(arm).has_value();
   }
   std::vector<MonitorFinding> found = watch_.check_premises(seen);
   std::vector<bool> moving;
@@ -58,8 +68,8 @@ void Executive::Impl::watch() {
     execution_.gate().leaves_path(arm, watch_.premises().deviation(arm));
   }
   if (watch_.look(seen.measured, moving, clock_.now)) {
-    count_.look(watch_.near().apart);
-    count_.look(watch_.near().at_mount);
+    clock_.count.look(watch_.near().apart);
+    clock_.count.look(watch_.near().at_mount);
     found.insert(found.end(), watch_.found().begin(), watch_.found().end());
   }
   std::vector<bool> stopping(cell_->arms.size(), false);
@@ -71,7 +81,8 @@ void Executive::Impl::watch() {
   }
   act_on(found);
   for (const ArmId arm : all_arms(*cell_)) {
-    if (watch_.premises().rests_elsewhere(arm) || scheduler_.is_unlocated(arm)) locate(arm);
+    if (watch_.premises().rests_elsewhere(arm) || scheduler_.state().arms.is_unlocated(arm))
+      locate(arm);
   }
   publisher_.tell_state(watch_.near().apart, clock_.now);
 }
@@ -79,7 +90,7 @@ void Executive::Impl::watch() {
 // An arm whose link is lost comes to rest by itself, within its authority. It stays stopped until
 // it is resumed, also when the link is back. The first connection ends only the stop that waited
 // for it: an arm that was stopped, or that moved for another server, does not move before a resume.
-void Executive::Impl::watch_links() {
+void ArmWatch::watch_links() {
   for (const LinkWatch::Change& change : links_.look(execution_.motions())) {
     using Kind = LinkWatch::Change::Kind;
     const std::string& arm = cell_->arm(change.arm).name;
@@ -93,19 +104,20 @@ void Executive::Impl::watch_links() {
         break;
       case Kind::in_use:
         tell_unlocated(change.arm);
-        stop({change.arm}, "its controller served another server: " + change.detail);
+        calls_.stop(change.arm, "its controller served another server: " + change.detail);
         break;
       case Kind::lost:
-        stop({change.arm}, "link lost: " + change.detail);
+        calls_.stop(change.arm, "link lost: " + change.detail);
         break;
       case Kind::stopped:
-        stop({change.arm}, "its controller stopped the arm by itself");
+        calls_.stop(change.arm, "its controller stopped the arm by itself");
         break;
       case Kind::connected:
       case Kind::back:
         if (change.kind == Kind::connected) locate(change.arm);
-        if (const auto& stop = scheduler_.stop_of(change.arm); stop && stop->until_connected) {
-          resume({change.arm});
+        if (const auto& stop = scheduler_.state().arms.stop_of(change.arm);
+            stop && stop->until_connected) {
+          calls_.resume(change.arm);
           break;
         }
         publisher_.tell(Alert{Alert::Level::info, "arm " + arm +
@@ -118,7 +130,7 @@ void Executive::Impl::watch_links() {
 }
 
 // Tells the scheduler that the arm may be anywhere.
-void Executive::Impl::tell_unlocated(ArmId arm) {
+void ArmWatch::tell_unlocated(ArmId arm) {
   std::vector<ArmId> may_meet;
   for (const ArmId other : all_arms(*cell_)) {
     if (other != arm && !scene_.scene()->out_of_reach(arm, other)) may_meet.push_back(other);
@@ -126,22 +138,22 @@ void Executive::Impl::tell_unlocated(ArmId arm) {
   step(Unlocated{arm, std::move(may_meet)});
 }
 
-// Tells the scheduler where an arm at rest really is, if that is not where it came to rest.
-void Executive::Impl::locate(ArmId arm) {
+void ArmWatch::locate(ArmId arm) {
   const ArmLink& link = execution_.motions().link(arm);
   if (link.state() != ArmLink::State::up || !link.feedback().at_rest) return;
   const Eigen::VectorXd off =
-      link.feedback().measured - joints_of(scheduler_.rest(), execution_.motions().joints(arm));
+      link.feedback().measured -
+      joints_of(scheduler_.state().arms.rest(), execution_.motions().joints(arm));
   const bool is_there = off.cwiseAbs().maxCoeff() <= cell_->tracking_error(cell_->arm(arm).robot);
-  if (is_there && !scheduler_.is_unlocated(arm)) return;
+  if (is_there && !scheduler_.state().arms.is_unlocated(arm)) return;
   step(Located{arm, link.feedback().measured});
 }
 
 // Publishes the findings and stops their arms, each with the first finding that names it as cause.
-void Executive::Impl::act_on(const std::vector<MonitorFinding>& found) {
+void ArmWatch::act_on(const std::vector<MonitorFinding>& found) {
   std::vector<Stop::StoppedArm> stopped;
   for (const MonitorFinding& finding : found) {
-    if (!finding.stops.empty()) count_.monitor_stop();
+    if (!finding.stops.empty()) clock_.count.monitor_stop();
     MonitorEvent event = event_of(finding, *cell_);
     for (const ArmId arm : finding.stops) {
       if (std::ranges::find(stopped, arm, &Stop::StoppedArm::arm) != stopped.end()) continue;

@@ -32,6 +32,9 @@ class ArmRests {
  public:
   // Throws std::invalid_argument unless `rest` has a value for every joint of the cell.
   ArmRests(const Cell& cell, Configuration rest);
+  // A copy is independent. Not assignable: only the transitions change the rests.
+  ArmRests(const ArmRests&) = default;
+  ArmRests(ArmRests&&) = default;
 
   // Returns the rest position of every joint (rad, m); for a moving joint, the position where it
   // started.
@@ -42,10 +45,6 @@ class ArmRests {
   // several arms.
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
-  // Stores that the motion's arms rest at `position` (of the trajectory's joints, in its order).
-  void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
-  // Stores that the arm was found at `position` (Located).
-  void locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position);
   // Stores that the arm may be anywhere until set_located(), and which other arms it could meet.
   void set_unlocated(ArmId arm, std::vector<ArmId> may_meet) {
     may_meet_[arm.index()] = std::move(may_meet);
@@ -56,14 +55,9 @@ class ArmRests {
   [[nodiscard]] bool is_unlocated(ArmId arm) const { return !may_meet_[arm.index()].empty(); }
   // Returns an arm that may be anywhere and that this arm could meet; nullopt if there is none.
   [[nodiscard]] std::optional<ArmId> unlocated_beside(ArmId arm) const;
-  // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
-  // Does not change rest().
-  void rest_at_goal(const WaitingLeg& leg);
 
   [[nodiscard]] WaysBack& ways_back() { return ways_back_; }
   [[nodiscard]] const WaysBack& ways_back() const { return ways_back_; }
-  // Of several stops, the first one counts; a stop until the connection is replaced by any other.
-  void stop(ArmId arm, std::string cause, bool until_connected = false);
   void resume(ArmId arm);
   [[nodiscard]] bool is_stopped(ArmId arm) const { return stop_of(arm).has_value(); }
   // A stop of an arm that has not ended.
@@ -76,7 +70,6 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Step& step) const;
 
-  [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
   // Returns true if there are joints_elsewhere() than at rest.
   [[nodiscard]] bool begins_elsewhere(const Cell& cell, const Trajectory& trajectory,
                                       std::optional<ArmId> arm = {}) const;
@@ -88,6 +81,20 @@ class ArmRests {
   [[nodiscard]] Version changes() const { return changes_; }
 
  private:
+  friend class StateWriter;
+  friend class Transitions;
+
+  // Stores that the motion's arms rest at `position` (of the trajectory's joints, in its order).
+  void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
+  // Stores that the arm was found at `position` (Located).
+  void locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& position);
+  // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
+  // Does not change rest().
+  void rest_at_goal(const WaitingLeg& leg);
+  // Of several stops, the first one counts; a stop until the connection is replaced by any other.
+  void stop(ArmId arm, std::string cause, bool until_connected = false);
+  [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
+
   Version changes_ = 0;
   Configuration rest_;
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm

@@ -81,16 +81,32 @@ struct Replan {
 struct Judged {
   Verdict verdict;
 };
+// Why no path was found.
+struct NoPlan {
+  enum class Cause {
+    sought,    // there is none, or it was not found
+    at_end,    // something is too close at the start or goal
+    canceled,  // the search was canceled
+  };
+  std::string why;  // one sentence
+  Cause cause = Cause::sought;
+  // Set if the arm is too close to this object at the start, and no job moves the object.
+  std::optional<Proximity> stands_in = {};
+};
 // Answers the PlanMotion effect whose `number` is `question`.
 struct PlanMade {
   StepId step;
   std::uint64_t question;
   TrajectoryPtr trajectory;  // from PlanQuestion::at to the goal; null if no path was found
-  std::string why = {};      // why no path was found; one sentence
-  // Set if no path was found because the arm is too close to this object, which no job moves.
-  std::optional<Proximity> stands_in = {};
+  NoPlan none = {};          // if no path was found
   // The path crosses positions of other arms, because no path around all of them was found.
   bool goes_through = false;
+  // Set if no path past the other arms was found, except past those `left_out`.
+  struct NotPast {
+    std::vector<ArmId> left_out;
+    NoPlan why;
+  };
+  std::optional<NotPast> not_past = {};
 };
 // Measured progress of a step's motion. Sent for every moving step in every relevant tick; `kind`
 // says what changed.
@@ -200,6 +216,7 @@ struct PlanMotion {
   StepId step;
   std::uint64_t number;
   PlanQuestion question;
+  std::optional<NoPlan> known = {};  // the answer, if it is known already
 };
 // At `start_at`, start this step's motion (`from_progress` is zero) or continue it after a stop.
 struct Dispatch {

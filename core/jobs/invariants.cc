@@ -21,7 +21,7 @@ Broken of_job(const State& state, const Step& step) {
 }
 
 Broken of_motion(const State& state, const CoordinatedMotion& motion) {
-  if (!state.jobs.is_active(motion.step.job))
+  if (!state.jobs.active().contains(motion.step.job))
     return name(motion.step) + " has ended but is admitted";
   if (state.jobs.at(motion.step).in<Queued>() != nullptr) {
     return name(motion.step) + " waits in the queue but is admitted";

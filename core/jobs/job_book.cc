@@ -37,14 +37,10 @@ const Step& JobBook::add(Step step) {
   const auto& before = step.job->errand.before;
   queues_.insert(step, before ? std::optional(only_step(*before)) : std::nullopt);
   queues_.add_work(step);
-  active_.insert(id);
-  if (!step.alternatives.empty()) undecided_.insert(id);
-  if (step.goal) ++goals_;
-  unexplained_.insert(id);
-  if (before) unexplained_.insert(*before);
-  ++priorities_[step.job->terms.priority];
-  for (JobId first : step.job->after) followers_[first].push_back(id);
-  changed_.insert(id);
+  active_.add(step);
+  updates_.explain(id);
+  if (before) updates_.explain(*before);
+  updates_.publish(id);
   return steps_.emplace(step.id, std::move(step)).first->second;
 }
 
@@ -108,7 +104,7 @@ void JobBook::decide_arm(const Step& step) {
   queues_.remove_work(step);
   edit(step).alternatives.clear();
   queues_.add_work(step);
-  undecided_.erase(step.id.job);
+  active_.follow(step);
   ++changes_;
   changed(step);
 }
@@ -126,8 +122,7 @@ void JobBook::amend(const Step& step, AmendedTerms terms) {
   apply(terms, own);
   changed(step);
   if (own.priority == before) return;
-  if (--priorities_.at(before) == 0) priorities_.erase(before);
-  ++priorities_[own.priority];
+  active_.change_priority(before, own.priority);
   ++changes_;
 }
 
@@ -187,16 +182,15 @@ void JobBook::start_over(const Step& step) {
 void JobBook::explain_with_next(const Step& step) {
   explain(step);
   for (ArmId arm : step.trajectory->arms()) {
-    if (const auto next = queues_.behind(step, arm)) unexplained_.insert(next->job);
+    if (const auto next = queues_.behind(step, arm)) updates_.explain(next->job);
   }
 }
 
 void JobBook::enter(const Step& step, StepPhase phase) {
-  const JobId id = step.id.job;
   if (!leads_to(step.phase, phase)) {
-    throw std::logic_error("job " + std::to_string(id.value()) + ": no transition from phase " +
-                           std::to_string(step.phase.index()) + " to " +
-                           std::to_string(phase.index()));
+    throw std::logic_error("job " + std::to_string(step.id.job.value()) +
+                           ": no transition from phase " + std::to_string(step.phase.index()) +
+                           " to " + std::to_string(phase.index()));
   }
   Step& own = edit(step);
   const bool is_dispatch = step.in<Admitted>() != nullptr && std::holds_alternative<Moving>(phase);
@@ -213,13 +207,7 @@ void JobBook::enter(const Step& step, StepPhase phase) {
     own.starvation.reset();
     own.asking.effort = 1;
   }
-  const bool is_decided = step.alternatives.empty() || step.in<Queued>() == nullptr;
-  is_decided ? (void)undecided_.erase(id) : (void)undecided_.insert(id);
-  const auto place = std::ranges::lower_bound(past_queue_, id);
-  const bool was_past = place != past_queue_.end() && *place == id;
-  const bool is_past = step.state() != JobState::queued && !step.has_ended();
-  if (was_past && !is_past) past_queue_.erase(place);
-  if (is_past && !was_past) past_queue_.insert(place, id);
+  active_.follow(step);
   explain_with_next(step);
 }
 
@@ -233,19 +221,15 @@ std::vector<JobId> JobBook::end(const Step& step, Ended how) {
   if (ended.state == JobState::succeeded) own.progress = own.trajectory->duration();
   queues_.erase(step);
   queues_.remove_work(step);
-  active_.erase(id);
   being_replanned_.erase(id);
-  if (step.goal) --goals_;
-  unexplained_.erase(id);
-  const int priority = step.job->terms.priority;
-  if (--priorities_.at(priority) == 0) priorities_.erase(priority);
-  auto node = followers_.extract(id);
-  if (node.empty()) return {};
-  std::erase_if(node.mapped(), [&](JobId follower) {
-    const bool waits = is_active(follower) && std::ranges::count(at(follower).job->after, id) > 0;
+  updates_.end(id);
+  std::vector<JobId> followers = active_.end(step);
+  std::erase_if(followers, [&](JobId follower) {
+    const bool waits =
+        active_.contains(follower) && std::ranges::count(at(follower).job->after, id) > 0;
     return !waits || std::erase(change(steps_.at(only_step(follower))).after, id) == 0;
   });
-  return std::move(node.mapped());
+  return followers;
 }
 
 std::vector<const Step*> occupying(const JobBook& book) {
@@ -258,7 +242,7 @@ std::vector<const Step*> occupying(const JobBook& book) {
 
 bool lets_another_pass(const JobBook& book, const Step& step) {
   const auto& other = step.job->errand.lets_pass;
-  return other && book.is_active(*other) && book.at(*other).is_waiting();
+  return other && book.active().contains(*other) && book.at(*other).is_waiting();
 }
 
 // Sorts by turn, but keeps the order of each arm's queue. An errand (Errand::before) counts with

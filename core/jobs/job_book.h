@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <ranges>
 #include <set>
 #include <vector>
 
+#include "core/jobs/active_jobs.h"
 #include "core/jobs/arm_queues.h"
 #include "core/jobs/inputs.h"
 #include "core/jobs/step_facts.h"
@@ -35,13 +35,15 @@ using Steps = std::vector<std::reference_wrapper<const Step>>;
 class JobBook : public StepFacts {
  public:
   JobBook(std::size_t arms, JobId first) : ids_(first), queues_(arms) {}
+  // A copy is independent. Not assignable: only the transitions change a book.
+  JobBook(const JobBook&) = default;
+  JobBook(JobBook&&) = default;
 
   [[nodiscard]] JobId next_id() const { return ids_.next(); }
-  [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
-  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`.
-  // Ascending ids. Do not change states while you use past_queue(); past_queue_now() is a copy.
-  [[nodiscard]] const std::set<JobId>& active() const { return active_; }
-  [[nodiscard]] auto past_queue() const { return of(past_queue_); }
+  [[nodiscard]] const ActiveJobs& active() const { return active_; }
+  // Return ActiveJobs::past_queue(). Do not change states while you use past_queue();
+  // past_queue_now() is a copy.
+  [[nodiscard]] auto past_queue() const { return of(active_.past_queue()); }
   [[nodiscard]] Steps past_queue_now() const { return {past_queue().begin(), past_queue().end()}; }
   // Returns the first step of each queue that is not empty.
   [[nodiscard]] auto heads() const {
@@ -50,11 +52,6 @@ class JobBook : public StepFacts {
         [this](const ArmQueues::Queue& queue) -> const Step& { return at(queue.front()); });
   }
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
-  [[nodiscard]] bool has_goals() const { return goals_ > 0; }
-  // Returns the queued jobs that could still run on other arms.
-  [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
-  // Returns true if all active jobs have the same priority.
-  [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
   // Forgets a job that has ended.
   void forget(JobId job) { steps_.erase(only_step(job)); }
@@ -104,12 +101,7 @@ class JobBook : public StepFacts {
   void explain_with_next(const Step& step);
 
   JobIds ids_;
-  std::set<JobId> active_;
-  std::vector<JobId> past_queue_;  // few, ascending
-  std::set<JobId> undecided_;
-  std::size_t goals_ = 0;
-  std::map<JobId, std::vector<JobId>> followers_;  // jobs that name the key in Submit::after
-  std::map<int, std::size_t> priorities_;          // number of active jobs per priority
+  ActiveJobs active_;
   ArmQueues queues_;
 };
 

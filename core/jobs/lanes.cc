@@ -57,7 +57,7 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
   for (JobId id : in_turn(book, waiting)) {
     const Step& step = book.at(id);
     WaitingLeg& leg = legs.emplace_back(waiting_leg(step));
-    if (step.job->errand.lets_pass && book.is_active(*step.job->errand.lets_pass)) {
+    if (step.job->errand.lets_pass && book.active().contains(*step.job->errand.lets_pass)) {
       leg.after.push_back(only_step(*step.job->errand.lets_pass));
     }
   }

@@ -15,14 +15,12 @@ namespace armloom {
 class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
+  // A copy is independent. Not assignable: only the transitions change the sequence.
+  Lanes(const Lanes&) = default;
+  Lanes(Lanes&&) = default;
 
-  // Update the sequence after a new job, after a job that left phase `before`, and after any other
-  // change.
-  void add(const Step& step);
-  void follow(const Step& step, const StepPhase& before);
+  // The sequence must be renewed, because paths or places have changed.
   void renew_later() { is_stale_ = true; }
-  // Records that the steps of the last after() call were admitted.
-  void admitted(const std::vector<StepId>& steps) { sequence_.admitted(steps); }
 
   // Returns what remains of the sequence if these steps are admitted now. There is no objection if
   // one of them is not queued: the sequence already counts with the end of a step on its path.
@@ -44,9 +42,19 @@ class Lanes {
   // that is admitted or on its path.
   void learn_in_the_way(StepId step, ArmId arm, const PassageBlock& block, const JobBook& book,
                         const ArmRests& arms);
-  void forget_passages() { sequence_.forget_passages(); }
 
  private:
+  friend class StateWriter;
+  friend class Transitions;
+
+  Lanes& operator=(Lanes&&) = default;
+  // Update the sequence after a new job, and after a job that left phase `before`.
+  void add(const Step& step);
+  void follow(const Step& step, const StepPhase& before);
+  // Records that the steps of the last after() call were admitted.
+  void admitted(const std::vector<StepId>& steps) { sequence_.admitted(steps); }
+  void forget_passages() { sequence_.forget_passages(); }
+
   SafeSequence sequence_;  // of the steps of all queued jobs
   bool is_stale_ = true;
 };

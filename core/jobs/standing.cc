@@ -46,12 +46,13 @@ std::optional<Wait> operator_wait(const State& state, const Step& step) {
 std::optional<Wait> signal_wait(const State& state, const Step& step) {
   const auto& wanted = step.job->terms.start_when;
   if (!wanted || step.times.started_at) return std::nullopt;
-  const auto known = state.signals.find(wanted->signal);
-  const bool is_known = known != state.signals.end() && known->second.value;
+  const auto known = state.around.signals.find(wanted->signal);
+  const bool is_known = known != state.around.signals.end() && known->second.value;
   if (is_known && known->second.value == wanted->value) return std::nullopt;
-  const std::string now = is_known                       ? text_of(*known->second.value)
-                          : known != state.signals.end() ? "not known: " + known->second.detail
-                                                         : "not known";
+  const std::string now = is_known ? text_of(*known->second.value)
+                          : known != state.around.signals.end()
+                              ? "not known: " + known->second.detail
+                              : "not known";
   return Wait{.kind = Wait::Kind::io,
               .detail = wanted->signal + " is " + now + "; the job starts when it is " +
                         text_of(wanted->value),
@@ -79,9 +80,9 @@ bool holds_one_ahead(const State& state, const Step& step) {
 
 std::optional<JobId> may_go_first(const State& state, const Step& step) {
   if (step.goal || step.in<Queued>() == nullptr) return std::nullopt;
-  if (state.jobs.undecided().empty()) return std::nullopt;
+  if (state.jobs.active().undecided().empty()) return std::nullopt;
   const auto& arms = step.trajectory->arms();
-  for (const Step& open : state.jobs.of(state.jobs.undecided())) {
+  for (const Step& open : state.jobs.of(state.jobs.active().undecided())) {
     if (!open.has_open_arm() || open.job->turn > step.job->turn) continue;
     if (step.approaches.ahead_of.contains(open.id.job)) continue;
     const bool shares = std::ranges::any_of(open.goal->ways, [&](const GoalWay& way) {

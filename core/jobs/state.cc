@@ -3,15 +3,22 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 namespace armloom {
+
+// The rules reach a state only through the transitions of its owners.
+static_assert(std::is_same_v<decltype(std::declval<StateWriter&>().operator->()), const State*>);
+static_assert(!std::is_convertible_v<StateWriter&, State&>);
+static_assert(!std::is_assignable_v<State&, State> && !std::is_assignable_v<JobBook&, JobBook> &&
+              !std::is_assignable_v<ArmRests&, ArmRests> && !std::is_assignable_v<Lanes&, Lanes>);
 
 std::vector<Effect> StateWriter::take_effects() {
   std::vector<Effect> result;
   const std::vector<YieldMove> added = std::exchange(added_, {});
   for (const YieldMove& move : added) result.emplace_back(move);
-  std::set<JobId> changed = state_.jobs.take_changed();
+  std::set<JobId> changed = state_.jobs.updates_.take_changed();
   for (const YieldMove& move : added) {  // they are known before others wait for them
     if (changed.erase(move.job) != 0) result.emplace_back(JobChanged{move.job});
   }
@@ -22,7 +29,8 @@ std::vector<Effect> StateWriter::take_effects() {
 
 void StateWriter::change_scene() {
   ++state_.changes_;
-  state_.scene_epoch = state_.version();
+  state_.around.scene_since = state_.version();
+  state_.around.refused_plans = {};
   state_.lanes.forget_passages();
 }
 
@@ -41,7 +49,7 @@ void StateWriter::set_speed(const SetSpeed& input) {
 }
 
 void StateWriter::set_signal(const SignalChanged& input) {
-  const SignalChanged before = std::exchange(state_.signals[input.signal], input);
+  const SignalChanged before = std::exchange(state_.around.signals[input.signal], input);
   for (const Step& step : state_.jobs.of(state_.jobs.active())) {
     const auto& wanted = step.job->terms.start_when;
     if (!wanted || wanted->signal != input.signal) continue;

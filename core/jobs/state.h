@@ -13,6 +13,7 @@
 #include "core/jobs/inputs.h"
 #include "core/jobs/job_book.h"
 #include "core/jobs/lanes.h"
+#include "core/jobs/refused_plans.h"
 #include "core/jobs/speed_override.h"
 #include "core/model/cell.h"
 #include "core/precedence/precedence_graph.h"
@@ -28,6 +29,13 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
+// What is known of the cell's surroundings.
+struct Surroundings {
+  std::map<std::string, SignalChanged> signals = {};  // the last of each, by name
+  Version scene_since = 0;          // the version since which the scene is unchanged
+  RefusedPlans refused_plans = {};  // in this scene
+};
+
 // The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
 // copy is independent of the original; Trial works on such a copy.
 struct State {
@@ -40,9 +48,8 @@ struct State {
   PrecedenceGraph graph;      // all admitted motions, with their orders
   Expectation expected = {};  // of the admitted motions
   Round round = {};
-  std::map<std::string, SignalChanged> signals = {};  // the last of each, by name
-  Version scene_epoch = 0;  // the version since which the scene is unchanged
-  TimePoint now{};          // of the present step
+  Surroundings around = {};
+  TimePoint now{};  // of the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),
@@ -89,7 +96,8 @@ class StateWriter {
   [[nodiscard]] const State* operator->() const { return &state_; }
   operator const State&() const { return state_; }
 
-  // Owners. What has consequences for other facts is done by Transitions.
+  // Owners, to be changed by their own transitions. What has consequences for other facts is done
+  // by Transitions.
   [[nodiscard]] JobBook& jobs() { return state_.jobs; }
   [[nodiscard]] Lanes& lanes() { return state_.lanes; }
   [[nodiscard]] ArmRests& arms() { return state_.arms; }
@@ -99,11 +107,19 @@ class StateWriter {
   void effect(Effect effect) { effects_.push_back(std::move(effect)); }
   // Announces a job that the scheduler has added.
   void announce(const YieldMove& added) { added_.push_back(added); }
+  // Returns the jobs whose wait explanation is out of date, once.
+  [[nodiscard]] std::set<JobId> take_unexplained() {
+    return state_.jobs.updates_.take_unexplained();
+  }
   // Returns the effects since the last call. What clients see comes first, so that an event is told
   // before its consequences.
   [[nodiscard]] std::vector<Effect> take_effects();
 
   void change_scene();
+  // Keeps what the answer says about paths that do not exist.
+  void learn(const PlanQuestion& question, const PlanMade& answer) {
+    state_.around.refused_plans.learn(*state_.cell, question, answer);
+  }
   // Precondition: no motion is admitted.
   void change_policy(std::shared_ptr<const Policy> policy);
   void set_speed(const SetSpeed& input);

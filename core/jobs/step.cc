@@ -34,7 +34,7 @@ const GoalWay* Step::stands_in() const {
   for (std::size_t k = 0; k < goal->ways.size(); ++k) {
     const GoalWay& way = goal->ways[k];
     if (!has_open_arm() && k != goal->taken) continue;
-    if (way.request.question || way.is_planned) return nullptr;
+    if (plans.is_open(ForGoal{k}) || way.is_planned) return nullptr;
     if (way.stands_in && first == nullptr) first = &way;
   }
   return first;

@@ -16,6 +16,7 @@
 #include "core/coordination/verdict.h"
 #include "core/jobs/job.h"
 #include "core/jobs/job_words.h"
+#include "core/jobs/plan_requests.h"
 #include "core/jobs/ways.h"
 #include "core/sequence/safe_sequence.h"
 #include "core/trajectory/trajectory.h"
@@ -131,7 +132,6 @@ struct Starvation {
 // Retreats of one arm tried for a job (yield_moves.h).
 struct YieldsTried {
   struct Planned {
-    PathRequest request = {};
     bool is_answered = false;
     TrajectoryPtr way = nullptr;  // null if no path was found
   };
@@ -151,7 +151,6 @@ struct Asking {
   bool is_in_question = false;
   std::uint64_t effort = 1;  // Question::effort of the next check
   int raised = 0;            // how often the effort was raised
-  std::uint64_t plans = 0;   // number of plans requested
 };
 
 // Moves to the job's start (approach.h).
@@ -201,6 +200,7 @@ struct Step {
   double off_path = 0.0;  // Motion::off_path at its last start
   std::vector<Wait> waits_on = {};
   Asking asking = {};
+  PlanRequests plans = {};
   // Its age: since it was first refused, or had its turn to move.
   std::optional<AgesFrom> ages_from = {};
   std::optional<TimePoint> overtaken_at = {};  // motion clock when another job first took its turn
@@ -228,9 +228,7 @@ struct Step {
     return !has_open_arm() && std::holds_alternative<Eigen::VectorXd>(goal->way().goal.to);
   }
   // True if the job has a path and a detour is being planned.
-  [[nodiscard]] bool is_detour_asked() const {
-    return goal && goal->detour && goal->detour->request.question;
-  }
+  [[nodiscard]] bool is_detour_asked() const { return plans.is_open(ForDetour{}); }
   // True if the job has a goal and the choice among its candidate arms is still open.
   [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }
   // True if the job could take this alternative. For goals, its path must be planned.

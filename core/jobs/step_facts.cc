@@ -42,6 +42,12 @@ void StepFacts::set(const Step& step, std::optional<Pause> pause) {
   old = pause;
 }
 
+void StepFacts::set(const Step& step, std::optional<Detour> fact) {
+  Step& own = explained(step);
+  if (!fact) own.plans.drop(ForDetour{});
+  own.goal->detour = std::move(fact);
+}
+
 void StepFacts::set(const Step& step, AnotherWay fact) {
   if (step.is_replanned_now() != fact.is_open) changed(step);
   fact.is_open ? (void)being_replanned_.insert(step.id.job)

@@ -5,8 +5,8 @@
 #include <set>
 #include <span>
 #include <unordered_map>
-#include <utility>
 
+#include "core/jobs/job_updates.h"
 #include "core/jobs/step.h"
 
 namespace armloom {
@@ -32,12 +32,8 @@ class StepFacts {
   [[nodiscard]] Version changes() const { return changes_; }
 
   // Marks a job whose wait explanation may be out of date.
-  void explain(const Step& step) { unexplained_.insert(step.id.job); }
-  [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
-  // Return the jobs marked since the last call: their published view, or their wait explanation, is
-  // out of date.
-  [[nodiscard]] std::set<JobId> take_changed() { return std::exchange(changed_, {}); }
-  [[nodiscard]] std::set<JobId> take_unexplained() { return std::exchange(unexplained_, {}); }
+  void explain(const Step& step) { updates_.explain(step.id.job); }
+  [[nodiscard]] const JobUpdates& updates() const { return updates_; }
 
   void set_waits(const Step& step, std::span<const Wait> waits);
   void set_wait(const Step& step, const Wait& only) { set_waits(step, {&only, 1}); }
@@ -51,7 +47,8 @@ class StepFacts {
   void set(const Step& step, ArmId arm, YieldsTried fact) { edit(step).yields[arm] = fact; }
   void set(const Step& step, Approaches fact) { explained(step).approaches = std::move(fact); }
   void set(const Step& step, std::size_t k, GoalWay fact) { explained(step).goal->ways[k] = fact; }
-  void set(const Step& step, std::optional<Detour> fact) { explained(step).goal->detour = fact; }
+  void set(const Step& step, PlanRequests fact) { explained(step).plans = std::move(fact); }
+  void set(const Step& step, std::optional<Detour> fact);
   void set(const Step& step, AnotherWay fact);
   void set(const Step& step, Choice fact) { changed(step).choice = std::move(fact); }
   void set(const Step& step, const Starvation& fact) { changed(step).starvation = fact; }
@@ -68,10 +65,12 @@ class StepFacts {
   }
 
  protected:
+  friend class StateWriter;
+
   [[nodiscard]] Step& edit(const Step& step) { return steps_.at(step.id); }
   // Mark what is out of date, and return the step to be changed.
   Step& changed(const Step& step) {
-    changed_.insert(step.id.job);
+    updates_.publish(step.id.job);
     return edit(step);
   }
   Step& explained(const Step& step) {
@@ -81,7 +80,7 @@ class StepFacts {
 
   std::unordered_map<StepId, Step> steps_;
   std::set<JobId> being_replanned_;
-  std::set<JobId> changed_, unexplained_;
+  JobUpdates updates_;
   Version changes_ = 0;
 };
 

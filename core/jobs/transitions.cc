@@ -141,14 +141,14 @@ void Transitions::end(const Step& step, JobState how, Reason reason, std::string
   state_.lanes.follow(step, before);
   if (succeeded) return;
   for (JobId id : followers) {
-    if (!state_.jobs.is_active(id)) continue;  // failed meanwhile, with another of its own
+    if (!state_.jobs.active().contains(id)) continue;  // failed meanwhile, with another of its own
     end(state_.jobs.at(id), JobState::failed, Reason::predecessor_failed,
         "a job that it comes after did not succeed");
   }
 }
 
 void Transitions::interrupt(bool keeps_waiting) {
-  const std::set<JobId> ids = state_.jobs.active();
+  const std::vector<JobId> ids(state_.jobs.active().begin(), state_.jobs.active().end());
   std::vector<JobId> ends;
   for (const Step& step : state_.jobs.of(ids)) {
     Job job = *step.job;

@@ -183,7 +183,7 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
   OpenQuestion question = std::move(*open_);
   open_.reset();
   if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
-  if (question.version >= state->scene_epoch) {
+  if (question.version >= state->around.scene_since) {
     state.lanes().learn(question.passages, input.verdict, state->jobs);
   }
   if (question.version != state->version()) return;  // stale: it is asked again

@@ -19,7 +19,6 @@
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
 #include "core/scheduler/yielding/making_way.h"
-#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 namespace {
@@ -145,7 +144,7 @@ Scheduler::Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configu
 }
 
 void Scheduler::on(const Submit& input) {
-  Configuration rest = predicted_rest();
+  Configuration rest = predicted_rest(state_);
   const Step& added = state_.add(input);
   bring_back(state_, input, std::move(rest));
   reopen_turn(state_, added);
@@ -168,8 +167,8 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
   // Progress alone, the bulk of all inputs, changes nothing that others wait for.
   const bool only_progress = report && report->kind == MotionReport::Kind::progressed &&
-                             !state_->jobs.has_changed() && state_->version() == version_before &&
-                             !is_due();
+                             !state_->jobs.updates().has_changed() &&
+                             state_->version() == version_before && !is_due();
   if (only_progress) return state_.take_effects();
   settle();
   if (const auto broken = broken_invariant(state_)) throw std::logic_error(*broken);
@@ -277,43 +276,6 @@ void Scheduler::on(const MotionReport& input) {
 bool Scheduler::has_turn_for_actions(JobId job) const {
   const Step* step = find(job);
   return step != nullptr && !step->has_ended() && lacks_only_actions(state_, *step);
-}
-
-// The last job of an arm says where it ends.
-Configuration Scheduler::predicted_rest() const {
-  Configuration q = rest();
-  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
-    const auto& queue = state_->jobs.queues()[ArmId{arm}];
-    if (queue.empty()) continue;
-    const Step& last = state_->jobs.at(queue.back());
-    const Braking* braking = last.ends_by_braking();
-    if (braking == nullptr || !braking->rests_at) {
-      follow_to_end(q, *state_->cell, ArmId{arm}, *last.trajectory);
-      continue;
-    }
-    Eigen::VectorXd stop;
-    last.trajectory->sample_positions(*braking->rests_at, stop);
-    set_joints_of(q, *state_->cell, ArmId{arm}, *last.trajectory, stop);
-  }
-  return q;
-}
-
-std::vector<ArmId> Scheduler::open_ends() const {
-  std::vector<ArmId> open;
-  for (std::uint32_t arm = 0; arm < state_->cell->arms.size(); ++arm) {
-    const auto& queue = state_->jobs.queues()[ArmId{arm}];
-    if (queue.empty()) continue;
-    const Step& last = state_->jobs.at(queue.back());
-    const bool is_pose = last.goal && std::holds_alternative<LinkTarget>(last.goal->way().goal.to);
-    const Braking* braking = last.ends_by_braking();
-    const bool is_stop_unknown = braking != nullptr && !braking->rests_at;
-    if (is_stop_unknown || (is_pose && last.is_unplanned())) open.push_back(ArmId{arm});
-  }
-  for (const Step& step : state_->jobs.of(state_->jobs.undecided())) {
-    if (!step.goal) continue;
-    for (const GoalWay& way : step.goal->ways) open.push_back(way.goal.arm);
-  }
-  return open;
 }
 
 const Step* Scheduler::find(JobId job) const { return state_->jobs.find(job); }

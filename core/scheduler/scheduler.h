@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/jobs/inputs.h"
+#include "core/jobs/queue_ends.h"
 #include "core/jobs/timeline.h"
 #include "core/jobs/transitions.h"
 #include "core/policies/policy.h"
@@ -48,17 +49,8 @@ class Scheduler {
   // reliable either.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
-  // Returns the rest position of every joint; for a moving joint the position where it started.
-  [[nodiscard]] const Configuration& rest() const { return state_->arms.rest(); }
-  // Returns where every joint will be when all accepted jobs have succeeded (rad, m), or where the
-  // arm comes to rest if its last job is being canceled. A new job must begin there.
-  [[nodiscard]] Configuration predicted_rest() const;
-  // Returns where clients left the arms that have retreated: a new job may begin there, too.
-  [[nodiscard]] const WaysBack& ways_back() const { return state_->arms.ways_back(); }
-  // Returns the arms for which predicted_rest() is an estimate, because the arm's last goal is a
-  // pose without a plan, because a job may still go to this arm or to another one, or because the
-  // arm brakes and its controller has not told where it will rest.
-  [[nodiscard]] std::vector<ArmId> open_ends() const;
+  // Everything that the rules decide by. Valid until the next step().
+  [[nodiscard]] const State& state() const { return state_; }
 
   // Returns the id for the next job to be submitted. Call again after each step(): the scheduler
   // may have used the id for a job of its own.
@@ -66,11 +58,6 @@ class Scheduler {
   // Returns the time of the last WakeAt.
   [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
   [[nodiscard]] const Policy& policy() const { return *state_->policy; }
-  [[nodiscard]] const std::shared_ptr<const Policy>& shared_policy() const {
-    return state_->policy;
-  }
-  // Returns true if no motion is admitted; otherwise ChangePolicy is ignored.
-  [[nodiscard]] bool may_change_policy() const { return state_->graph.motions().empty(); }
   // `question` has a single candidate, and `verdict` is its answer. Returns the candidate's
   // earliest start by the clock, from now; nullopt if none is found.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
@@ -80,11 +67,6 @@ class Scheduler {
     return predicted_timeline(state_, now);
   }
 
-  [[nodiscard]] const SpeedOverride& speed() const { return state_->speed; }
-  // Returns the cell time that the whole motion is predicted to take at the present override.
-  [[nodiscard]] Duration time_for(const Trajectory& motion) const {
-    return state_->time_for(motion);
-  }
   // Returns when the active job expires (deadlines.h).
   [[nodiscard]] std::optional<TimePoint> expiry(JobId job) const;
 
@@ -94,18 +76,8 @@ class Scheduler {
   [[nodiscard]] bool has_turn_for_actions(JobId job) const;
   // Returns the first job of the arm's queue.
   [[nodiscard]] std::optional<JobId> head(ArmId arm) const;
-  // Returns true if the arm's queue has a job.
-  [[nodiscard]] bool has_job(ArmId arm) const { return !state_->jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_->arms.is_stopped(arm); }
-  // Returns true if the arm's position is not known (Unlocated).
-  [[nodiscard]] bool is_unlocated(ArmId arm) const { return state_->arms.is_unlocated(arm); }
-  // Returns nullopt if the arm is not stopped.
-  [[nodiscard]] const std::optional<ArmRests::StopOfArm>& stop_of(ArmId arm) const {
-    return state_->arms.stop_of(arm);
-  }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion, braking or held
-  // Returns true if all admitted motions can reach their ends by their orders. For tests.
-  [[nodiscard]] bool is_acyclic() const { return state_->graph.is_acyclic(); }
   // Forgets an ended job. Until then the caller can read its result.
   void forget(JobId ended);
 

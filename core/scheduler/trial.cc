@@ -76,7 +76,7 @@ void Trial::answer(Verdict verdict) {
   const Question question = *std::exchange(open_.question, std::nullopt);
   ++judgements_;
   // Not where an arm is asked about that would have gone aside.
-  const bool as_arms_stand = question.rest == scheduler_.rest();
+  const bool as_arms_stand = question.rest == scheduler_.state().arms.rest();
   const bool of_it = std::ranges::any_of(question.candidates, [this](const Motion& motion) {
     const JobId job = motion.step.job;
     return job == job_ || std::ranges::find(approaches_, job) != approaches_.end();
@@ -96,8 +96,8 @@ Duration Trial::approach_ends() const {
   for (JobId id : approaches_) {
     const Step& approach = *scheduler_.find(id);
     if (!approach.times.scheduled_at) continue;
-    last = std::max(
-        last, *approach.times.scheduled_at - now_ + scheduler_.time_for(*approach.trajectory));
+    last = std::max(last, *approach.times.scheduled_at - now_ +
+                              scheduler_.state().time_for(*approach.trajectory));
   }
   return last;
 }
@@ -143,7 +143,7 @@ Trial::Outcome Trial::outcome() const {
 
 Scheduler with_arms_at(const Scheduler& present, const CellPtr& cell,
                        const std::vector<ArmId>& arms, const Configuration& at, TimePoint now) {
-  Configuration rest = present.rest();
+  Configuration rest = present.state().arms.rest();
   std::vector<Motion> under_way;
   std::vector<ArmId> taken = arms;
   for (const JobId id : present.active()) {
@@ -162,13 +162,13 @@ Scheduler with_arms_at(const Scheduler& present, const CellPtr& cell,
     set_joints(rest, joints, joints_of(at, joints));
   }
   std::ranges::sort(under_way, {}, [](const Motion& motion) { return motion.step.job; });
-  Scheduler scheduler(cell, present.shared_policy(), std::move(rest), under_way, now);
-  const SpeedOverride& speed = present.speed();
+  Scheduler scheduler(cell, present.state().policy, std::move(rest), under_way, now);
+  const SpeedOverride& speed = present.state().speed;
   (void)scheduler.step(SetSpeed{std::nullopt, speed.cell()}, now);
   for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (speed.arm(arm) != 1.0) (void)scheduler.step(SetSpeed{arm, speed.arm(arm)}, now);
-    if (const auto& stop = present.stop_of(arm)) {
+    if (const auto& stop = present.state().arms.stop_of(arm)) {
       (void)scheduler.step(Stop({{arm, stop->cause, stop->until_connected}}), now);
     }
   }

@@ -120,14 +120,17 @@ void get_diagram(Call call) {
   const ApiParts& parts = call.parts;
   parts.loop.post([&parts, key = call.arguments.front(), query = *query,
                    respond = std::move(call.respond)](Executive& executive) {
-    executive.diagram(key, query.with, [&parts, query, respond](Result<DiagramView> result) {
-      if (result && !query.cells) {
-        for (DiagramView::Layer& layer : result->layers) layer.cells.clear();
-      }
-      parts.post([respond, result = std::move(result)] {
-        respond(result ? answer(200, diagram_format(), *result) : problem_response(result.error()));
-      });
-    });
+    executive.inquiries().diagram(key, query.with,
+                                  [&parts, query, respond](Result<DiagramView> result) {
+                                    if (result && !query.cells) {
+                                      for (DiagramView::Layer& layer : result->layers)
+                                        layer.cells.clear();
+                                    }
+                                    parts.post([respond, result = std::move(result)] {
+                                      respond(result ? answer(200, diagram_format(), *result)
+                                                     : problem_response(result.error()));
+                                    });
+                                  });
   });
 }
 
@@ -169,7 +172,7 @@ void get_timeline(Call call) {
         [respond](std::string text) { respond(json_response(200, std::move(text))); });
   };
   ask(
-      parts, [](Executive& executive) { return executive.timeline(); }, write);
+      parts, [](Executive& executive) { return executive.inquiries().timeline(); }, write);
 }
 
 Route of_one(const char* method, const char* path, const char* id, const char* summary) {

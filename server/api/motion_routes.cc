@@ -8,7 +8,7 @@ void get_trajectory(Call call) {
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
   ask(
-      parts, [key](Executive& executive) { return executive.trajectory(key); },
+      parts, [key](Executive& executive) { return executive.inquiries().trajectory(key); },
       [&parts, respond = call.respond, key](const TrajectoryPtr& trajectory) {
         if (trajectory == nullptr) return respond(no_such_job(parts, key));
         respond(

@@ -38,7 +38,8 @@ void post_plan(Call call) {
           respond(plan_response(result, *parts.cell));
         });
       };
-      std::visit([&](auto& inquiry) { executive.plan(std::move(inquiry), gone, done); }, *body);
+      std::visit([&](auto& inquiry) { executive.inquiries().plan(std::move(inquiry), gone, done); },
+                 *body);
     });
   };
   read_body(call.parts, call.request, call.respond, read_plan_body_text, plan);

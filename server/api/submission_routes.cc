@@ -79,7 +79,7 @@ void post_check(Call call) {
   const auto check = [&parts, respond = call.respond](JobRequest read) {
     const auto job = std::make_shared<JobRequest>(std::move(read));
     parts.loop.post([&parts, job, respond](Executive& executive) {
-      executive.check(std::move(*job), [&parts, respond](Result<CheckView> result) {
+      executive.inquiries().check(std::move(*job), [&parts, respond](Result<CheckView> result) {
         parts.post([respond, result = std::move(result)] {
           respond(result ? answer(200, verdict_format(), *result)
                          : problem_response(result.error()));

@@ -190,7 +190,7 @@ class Queries {
   // present scene.
   void note_admitted(const std::string& key) {
     ++admitted_;
-    const Trajectory& motion = *executive_->trajectory(key);
+    const Trajectory& motion = *executive_->inquiries().trajectory(key);
     const bool from_there = motion.start().isApprox(judge_.last_start, 1e-6);
     const auto& objects = judge_.last_scene->objects();
     const bool same_scene = std::ranges::equal(objects, executive_->scene().objects(), {},

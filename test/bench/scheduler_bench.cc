@@ -52,7 +52,7 @@ class Crowd {
     return job;
   }
   std::vector<JobId> submit_batch(std::size_t count) {
-    benchmark::DoNotOptimize(scheduler_.predicted_rest());
+    benchmark::DoNotOptimize(predicted_rest(scheduler_.state()));
     std::vector<JobId> jobs;
     for (std::size_t n = 0; n < count; ++n) jobs.push_back(submit(arm_of(n)));
     return jobs;

@@ -19,10 +19,11 @@ class CheckedGoals : public ::testing::TestWithParam<std::string> {
   void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
   CheckView check(JobRequest request) {
     std::optional<CheckView> said;
-    cell->simulation->executive().check(std::move(request), [&](Result<CheckView> answer) {
-      ASSERT_TRUE(answer) << answer.error().front().detail;
-      said = *answer;
-    });
+    cell->simulation->executive().inquiries().check(
+        std::move(request), [&](Result<CheckView> answer) {
+          ASSERT_TRUE(answer) << answer.error().front().detail;
+          said = *answer;
+        });
     const TimePoint limit = cell->simulation->now() + 5s;
     while (!said && cell->simulation->now() < limit) cell->simulation->tick();
     EXPECT_TRUE(said) << "no answer";

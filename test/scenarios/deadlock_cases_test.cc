@@ -44,8 +44,8 @@ TEST_P(GoalSwap, CheckReportsTheCycleThatTheJobWouldClose) {
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.run_until(at(100ms));
   std::optional<CheckView> said;
-  cell.simulation->executive().check(slide("b", -1, 1, 4, "two"),
-                                     [&](Result<CheckView> answer) { said = answer.value(); });
+  cell.simulation->executive().inquiries().check(
+      slide("b", -1, 1, 4, "two"), [&](Result<CheckView> answer) { said = answer.value(); });
   while (!said && cell.simulation->now() < at(5s)) cell.simulation->tick();
   ASSERT_TRUE(said && said->result);
   EXPECT_EQ(said->result->reason, Reason::deadlock);

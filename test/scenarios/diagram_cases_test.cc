@@ -8,7 +8,7 @@ class DiagramOfJobs : public testing::Test {
   // Requests the diagram and ticks until it arrives.
   Result<DiagramView> diagram(const std::string& a, const std::string& b) {
     std::optional<Result<DiagramView>> answer;
-    crossing_.simulation->executive().diagram(
+    crossing_.simulation->executive().inquiries().diagram(
         a, b, [&](Result<DiagramView> view) { answer = std::move(view); });
     for (int i = 0; i < 100 && !answer; ++i) crossing_.simulation->tick();
     if (!answer) throw std::runtime_error("no answer");
@@ -48,7 +48,7 @@ TEST_F(DiagramOfJobs, DoesNotChangeVerdicts) {
     crossing.submit(slide("y", -1.0, 1.0, 3.0, "y"));
     bool drawn = false;
     if (look) {
-      crossing.simulation->executive().diagram(
+      crossing.simulation->executive().inquiries().diagram(
           "x", "y", [&](const Result<DiagramView>& view) { drawn = view.has_value(); });
     }
     crossing.run_to_the_end();

@@ -126,7 +126,7 @@ TEST(Published, EveryJobIsAStepOrWaitsInItsArmQueues) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     run_at_random(seed, "coordinated", [&](Executive& executive) {
       const Cell& cell = executive.scene().scene()->cell();
-      const TimelineLanes lanes = lanes_of(executive.timeline(), cell);
+      const TimelineLanes lanes = lanes_of(executive.inquiries().timeline(), cell);
       for (const auto& lane : lanes.lanes) {
         std::size_t jobs = 0;
         for (const JobView& job : executive.snapshot(0).jobs) {

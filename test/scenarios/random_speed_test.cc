@@ -174,8 +174,8 @@ TEST(Speed, CheckPredictsTheStartAtTheOverride) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.run_until(at(1s));
   std::optional<CheckView> check;
-  cell.simulation->executive().check(slide("y", -1, 1, 4),
-                                     [&](const Result<CheckView>& made) { check = *made; });
+  cell.simulation->executive().inquiries().check(
+      slide("y", -1, 1, 4), [&](const Result<CheckView>& made) { check = *made; });
   cell.run_until(at(2s));
   ASSERT_TRUE(check && check->earliest_start_s);
   cell.submit(slide("y", -1, 1, 4, "second"));

@@ -268,7 +268,7 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
     ASSERT_TRUE(view);
     answer = *view;
   };
-  cell.simulation->executive().check(slide("y", -1, 1, 4), keep);
+  cell.simulation->executive().inquiries().check(slide("y", -1, 1, 4), keep);
   cell.run_until(at(110ms));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
@@ -276,12 +276,12 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
   EXPECT_GT(answer->evaluations, 0u);
   EXPECT_FALSE(answer->earliest_start_s);
 
-  cell.simulation->executive().check(slide("y", -1, -0.5, 4), keep);
+  cell.simulation->executive().inquiries().check(slide("y", -1, -0.5, 4), keep);
   cell.run_until(at(120ms));
   EXPECT_EQ(answer->kind, Verdict::Kind::free);
   EXPECT_EQ(answer->earliest_start_s, 0.0);
 
-  cell.simulation->executive().check(slide("x", 1, -1, 4), keep);
+  cell.simulation->executive().inquiries().check(slide("x", 1, -1, 4), keep);
   EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
   EXPECT_EQ(answer->conflicts.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(cell.log.events.size(), events);
@@ -300,7 +300,7 @@ TEST(Check, UnderCoordinatedIncludesJobsThatCanStartTogether) {
     ASSERT_TRUE(view);
     answer = *view;
   };
-  cell.simulation->executive().check(slide("c", -1, 1, 4), keep);
+  cell.simulation->executive().inquiries().check(slide("c", -1, 1, 4), keep);
   cell.run_until(at(1100ms));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->kind, Verdict::Kind::free);
@@ -316,8 +316,8 @@ TEST(Check, UnderCoordinatedReportsTheBlockerOfALoneJob) {
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.run_until(at(1s));
   std::optional<CheckView> answer;
-  cell.simulation->executive().check(slide("c", -1, 1, 4),
-                                     [&](Result<CheckView> view) { answer = view.value(); });
+  cell.simulation->executive().inquiries().check(
+      slide("c", -1, 1, 4), [&](Result<CheckView> view) { answer = view.value(); });
   cell.run_until(at(1100ms));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->kind, Verdict::Kind::conflict);

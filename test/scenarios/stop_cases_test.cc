@@ -72,8 +72,8 @@ class TimedDiscreteStop : public ::testing::Test {
   // Expects that y keeps clear of x, which is stopped or stalled in the middle.
   void expect_nobody_drives_into_it(const std::string& first) {
     std::optional<CheckView> view;
-    cell.simulation->executive().check(slide("y", -1, 1, 4),
-                                       [&](const Result<CheckView>& made) { view = *made; });
+    cell.simulation->executive().inquiries().check(
+        slide("y", -1, 1, 4), [&](const Result<CheckView>& made) { view = *made; });
     cell.run_until(cell.simulation->now() + 100ms);
     ASSERT_TRUE(view);
     EXPECT_EQ(view->kind, Verdict::Kind::conflict);

@@ -222,9 +222,9 @@ TEST(Task, RefusesWhatCannotBeDone) {
       ASSERT_FALSE(result) << one.slug;
       others.push_back(result.error());
     };
-    cell.executive().check(task("bad", one.steps), keep);
-    cell.executive().plan(StepsInquiry{task("bad", one.steps)},
-                          std::make_shared<std::atomic<bool>>(false), keep);
+    cell.executive().inquiries().check(task("bad", one.steps), keep);
+    cell.executive().inquiries().plan(StepsInquiry{task("bad", one.steps)},
+                                      std::make_shared<std::atomic<bool>>(false), keep);
     ASSERT_EQ(others.size(), 2U);
     for (const Problems& problems : others) {
       ASSERT_EQ(problems.size(), answer.error().size());

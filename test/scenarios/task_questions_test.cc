@@ -21,11 +21,12 @@ std::vector<StepRequest> hand_over() {
 struct Asked : Tasks {
   using Tasks::Tasks;
   CheckView check(const JobRequest& request) {
-    return answer<CheckView>([&](auto done) { executive().check(request, done); });
+    return answer<CheckView>([&](auto done) { executive().inquiries().check(request, done); });
   }
   StepsPlan plan(const JobRequest& request) {
     return answer<StepsPlan>([&](auto done) {
-      executive().plan(StepsInquiry{request}, std::make_shared<std::atomic<bool>>(false), done);
+      executive().inquiries().plan(StepsInquiry{request},
+                                   std::make_shared<std::atomic<bool>>(false), done);
     });
   }
   void put_part_at(double x) {

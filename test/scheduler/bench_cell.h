@@ -79,7 +79,7 @@ class Bench {
         if (step.has_ended()) ++terminal_events[c->job];
       }
     }
-    EXPECT_TRUE(scheduler.is_acyclic());
+    EXPECT_TRUE(scheduler.state().graph.is_acyclic());
   }
 
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {

@@ -136,7 +136,7 @@ TEST(Lockstep, NextJobOfABlockingArmJoinsTheRound) {
   bench.progressed(pauses, 1500ms, at(2s));
   bench.progressed(pauses, 1500ms, at(3s));
   ASSERT_TRUE(bench.job(pauses).pausing());
-  const JobId next = bench.submit(move({0}, bench.scheduler.rest()[0], 0, 2s), at(4s));
+  const JobId next = bench.submit(move({0}, bench.scheduler.state().arms.rest()[0], 0, 2s), at(4s));
   ASSERT_TRUE(bench.question) << "it would wait for the round, and the round for it";
   EXPECT_EQ(bench.question->candidates.front().step.job, next);
 }

@@ -116,7 +116,7 @@ PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   const auto* link = std::get_if<LinkTarget>(&goal.to);
   PlanMade made{.step = asked.step, .question = asked.number, .trajectory = nullptr};
   if (joints == nullptr && link == nullptr) {
-    made.why = "no place clear of it is known";
+    made.none.why = "no place clear of it is known";
     return made;
   }
   const double to = joints != nullptr ? (*joints)[0] : link->X_WL.translation().x();
@@ -129,7 +129,7 @@ PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   for (const ArmId other : asked.question.may_move) beside[other.index()] = kGone;
   made.goes_through = crossings.free_beside(*way, beside);
   if (made.goes_through) made.trajectory = way;
-  if (!made.goes_through) made.why = "others stand there";
+  if (!made.goes_through) made.none.why = "others stand there";
   return made;
 }
 

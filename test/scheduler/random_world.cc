@@ -74,7 +74,7 @@ Habits World::habits() {
 }
 
 std::optional<Submit> World::draw(bool any) {
-  const Configuration rest = bench_.scheduler.predicted_rest();
+  const Configuration rest = predicted_rest(bench_.scheduler.state());
   for (int tries = 0; tries < 30; ++tries) {
     if (disturbances_.choices && random_() % 2 == 0) {
       if (auto job = draw_visit(rest, any)) return job;

@@ -265,7 +265,7 @@ TEST(Resume, FailsAJobBesideItsPathIfNoPathIsFound) {
   OffPath bench(0.02, MoveToStart::plan);
   bench.stop_and_resume();
   ASSERT_THAT(bench.plans, SizeIs(1));
-  bench.step(PlanMade{only_step(bench.job), bench.plans[0].number, nullptr, "none"}, at(900ms));
+  bench.step(PlanMade{only_step(bench.job), bench.plans[0].number, nullptr, {"none"}}, at(900ms));
   EXPECT_EQ(bench.state(bench.job), JobState::failed);
   EXPECT_EQ(bench.Bench::job(bench.job).reason(), Reason::start_mismatch);
 }

@@ -117,14 +117,14 @@ TEST(DeadlockUnderPark, RetreatAndReturnComeBeforeTheJob) {
 TEST(DeadlockUnderPark, PredictedRestIsUnchangedByARetreat) {
   Parking bench;
   const JobId next = bench.submit(move({1}, 1, 2, 1s), at(2ms));
-  const Configuration before = bench.scheduler.predicted_rest();
+  const Configuration before = predicted_rest(bench.scheduler.state());
   EXPECT_DOUBLE_EQ(before[1], 2.0);
   bench.answer_way_and_passing();
-  EXPECT_EQ(bench.scheduler.predicted_rest(), before);
+  EXPECT_EQ(predicted_rest(bench.scheduler.state()), before);
   bench.step(Cancel{next}, at(5ms));
-  EXPECT_DOUBLE_EQ(bench.scheduler.predicted_rest()[1], 1.0);
+  EXPECT_DOUBLE_EQ(predicted_rest(bench.scheduler.state())[1], 1.0);
   bench.step(Cancel{bench.b}, at(6ms));
-  EXPECT_NEAR(bench.scheduler.predicted_rest()[1], 0.0, 1e-9);
+  EXPECT_NEAR(predicted_rest(bench.scheduler.state())[1], 0.0, 1e-9);
 }
 
 TEST(DeadlockUnderPark, ReturnWaitsForTheBlockedJob) {

@@ -135,8 +135,8 @@ TEST(Order, PredictsTheFinalRestOfArms) {
   Bench bench(2);
   bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.submit(move({0}, 1, 2, 2s), at(0ms));
-  EXPECT_EQ(bench.scheduler.predicted_rest()[0], 2.0);
-  EXPECT_EQ(bench.scheduler.predicted_rest()[1], 0.0);
+  EXPECT_EQ(predicted_rest(bench.scheduler.state())[0], 2.0);
+  EXPECT_EQ(predicted_rest(bench.scheduler.state())[1], 0.0);
 }
 
 TEST(Synchronous, TwoArmJobWaitsForBothQueues) {

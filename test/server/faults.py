@@ -182,7 +182,7 @@ FAULTS = {'server_store_test': [
     ('a late report stops its arm', WATCH, '|| link.state() == ArmLink::State::stale;', '|| (!FAULT && link.state() == ArmLink::State::stale);'),
     ('an arm does not wait for its controller', WATCH, '    details_[a] = link.detail();', '    if (FAULT && now == Seen::waiting) continue;\n    details_[a] = link.detail();'),
     ('an arm waits for its controller for ever', WATCH, '    changes.push_back({ArmId{a}, kind, link.detail()});', '    if (!FAULT || kind != Kind::connected) changes.push_back({ArmId{a}, kind, link.detail()});'),
-    ('an arm goes on when its link is back', 'core/executive/watching.cc', '      case Kind::back:\n', '      case Kind::back:\n        if (FAULT) resume({change.arm});\n'),
+    ('an arm goes on when its link is back', 'core/executive/watching.cc', '      case Kind::back:\n', '      case Kind::back:\n        if (FAULT) calls_.resume(change.arm);\n'),
 ], 'dashboard': [
     ('a known event is processed again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
     ('a lost connection is opened from the start', 'web/src/server/connection.ts', "const resume = this.stream_ === null ?", "const resume = FAULT || this.stream_ === null ?"),

@@ -234,7 +234,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
         return (void)executive_->cancel(some_job(),
                                         now_ + Duration(random_() % 800) * kControlPeriod.count());
       case 26:  // checks and plans are not logged and change nothing, however long they take
-        return executive_->check(request(swing(arm())), [](const auto&) {});
+        return executive_->inquiries().check(request(swing(arm())), [](const auto&) {});
       case 27:
         return ask_about_steps();
       case 28:
@@ -253,8 +253,8 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     } else {
       inquiry.arm = arm();
     }
-    executive_->plan(std::move(inquiry), std::make_shared<std::atomic<bool>>(false),
-                     [this](const auto& outcome) { planned += outcome && *outcome; });
+    executive_->inquiries().plan(std::move(inquiry), std::make_shared<std::atomic<bool>>(false),
+                                 [this](const auto& outcome) { planned += outcome && *outcome; });
   }
 
   void ask_about_steps() {
@@ -265,9 +265,9 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
                                 {{"gripper", {{"arm", first}, {"width_m", 0.05}}}},
                                 {{"arm", second}, {"move_to", home}},
                                 {{"arm", first}, {"move_to", home}}}}});
-    executive_->plan(StepsInquiry{job, random_()}, std::make_shared<std::atomic<bool>>(false),
-                     [](const auto&) {});
-    executive_->check(std::move(job), [this](const Result<CheckView>& view) {
+    executive_->inquiries().plan(StepsInquiry{job, random_()},
+                                 std::make_shared<std::atomic<bool>>(false), [](const auto&) {});
+    executive_->inquiries().check(std::move(job), [this](const Result<CheckView>& view) {
       further_steps_checked += view && view->step.value_or(1) > 0;
     });
   }

@@ -45,7 +45,7 @@ void renew_round(Transitions& state) {
   Round round = state->round;
   const JobBook& book = state->jobs;
   const auto blocks_place = [](const Gate& gate) { return gate.blocks >= Blocks::place; };
-  std::erase_if(round.jobs, [&](JobId id) { return !book.is_active(id); });
+  std::erase_if(round.jobs, [&](JobId id) { return !book.active().contains(id); });
   for (const auto& queue : book.queues()) {
     for (const Step& step : book.of(queue)) {
       const auto& before = step.job->errand.before;

@@ -325,12 +325,12 @@ FoundWaits found_in_the_way(const State& state, const Step& step) {
 std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   const JobBook& jobs = state.jobs;
   if (wait.kind == Wait::Kind::predecessor) {  // it shall be done before, lest it never can be
-    const bool still = jobs.is_active(*wait.job) && stands(state, jobs.at(*wait.job));
+    const bool still = jobs.active().contains(*wait.job) && stands(state, jobs.at(*wait.job));
     return still ? wait.job : std::nullopt;
   }
   const bool of_job = wait.kind == Wait::Kind::job;
   if (!of_job && wait.kind != Wait::Kind::arm) return std::nullopt;
-  if (of_job && !jobs.is_active(*wait.job)) return std::nullopt;
+  if (of_job && !jobs.active().contains(*wait.job)) return std::nullopt;
   std::optional<JobId> first = wait.job;
   const bool begun = of_job && jobs.at(*wait.job).has_started();
   if (!begun && wait.arm) {  // its arm moves with its next job

@@ -153,7 +153,7 @@ void take_alternative(Transitions& state, const Step& step, std::size_t which) {
 }
 
 bool take_arms_that_remain(Transitions& state, const std::vector<StepId>& go) {
-  if (state->jobs.undecided().empty()) return false;
+  if (state->jobs.active().undecided().empty()) return false;
   if (state.lanes().after(go, state->jobs, state->arms).all) return false;
   bool any = false;
   for (JobId id : first_undecided(state)) {
@@ -165,7 +165,8 @@ bool take_arms_that_remain(Transitions& state, const std::vector<StepId>& go) {
 }
 
 std::vector<JobId> first_undecided(const State& state) {
-  auto first = state.jobs.undecided() | std::views::take(kUndecidedMax) | std::views::common;
+  auto first =
+      state.jobs.active().undecided() | std::views::take(kUndecidedMax) | std::views::common;
   return {first.begin(), first.end()};
 }
 
@@ -222,7 +223,8 @@ void reopen_turn(Transitions& state, const Step& added) {
 
 bool stand(const State& state, const std::vector<Option>& options) {
   return std::ranges::all_of(options, [&](const Option& option) {
-    return state.jobs.is_active(option.job) && state.jobs.at(option.job).in<Queued>() != nullptr;
+    return state.jobs.active().contains(option.job) &&
+           state.jobs.at(option.job).in<Queued>() != nullptr;
   });
 }
 

@@ -48,7 +48,7 @@ std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue
 
 // Whose waits may be others than they were told. Ascending.
 std::vector<JobId> to_explain(Transitions& state) {
-  const std::set<JobId> unexplained = state.jobs().take_unexplained();
+  const std::set<JobId> unexplained = state.take_unexplained();
   std::vector<JobId> jobs;
   jobs.reserve(unexplained.size() + 2 * state->cell->arms.size() + kUndecidedMax);
   jobs.assign(unexplained.begin(), unexplained.end());
@@ -148,7 +148,7 @@ std::optional<JobId> Turns::held_back_by(const Step& step) const {
 
 // Empty: all are the same.
 std::map<JobId, int> Turns::urgencies() const {
-  if (state_.jobs.all_as_urgent()) return {};
+  if (state_.jobs.active().are_as_urgent()) return {};
   std::vector<Urgency> jobs;
   for (const Step& step : state_.jobs.of(state_.jobs.active())) {
     if (step.is_waiting()) jobs.push_back({step.id.job, step.job->terms.priority});

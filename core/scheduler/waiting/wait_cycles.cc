@@ -38,7 +38,7 @@ bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
 
 void untell(Transitions& state, const WaitCycle& ring) {
   for (JobId id : ring) {
-    if (!state->jobs.is_active(id)) continue;
+    if (!state->jobs.active().contains(id)) continue;
     const Step& step = state->jobs.at(id);
     const auto* braking = step.in<Braking>();
     const bool ends_for_it = braking != nullptr && braking->after.then == AfterStop::Then::fail &&
@@ -106,7 +106,7 @@ void WaitCycles::name(Transitions& state) {
       return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
     });
     if (told) continue;
-    Named named{.ring = ring, .epoch = state->scene_epoch, .in_turn = {}};
+    Named named{.ring = ring, .epoch = state->around.scene_since, .in_turn = {}};
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Step& step = state->jobs.at(ring[i]);
       if (!is_found_in_the_way(state, step, next_on(ring, i))) named.in_turn.push_back(ring[i]);
@@ -121,8 +121,8 @@ void WaitCycles::name(Transitions& state) {
 bool WaitCycles::stands_still(const State& state, const Named& named) const {
   const WaitCycle& ring = named.ring;
   const bool all_stand =
-      named.epoch == state.scene_epoch && std::ranges::all_of(ring, [&](JobId id) {
-        return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
+      named.epoch == state.around.scene_since && std::ranges::all_of(ring, [&](JobId id) {
+        return state.jobs.active().contains(id) && stands(state, state.jobs.at(id));
       });
   if (!all_stand || named.in_turn.empty()) return all_stand;
   const WaitsFor graph = waits_for(state, ring);
@@ -154,7 +154,7 @@ void WaitCycles::settle(Transitions& state) {
 bool WaitCycles::has_lost_one(const State& state, const Step& step) const {
   return std::ranges::any_of(step.trajectory->arms(), [&](ArmId arm) {
     const auto lost = lost_.find(arm);
-    return lost != lost_.end() && lost->second.epoch == state.scene_epoch &&
+    return lost != lost_.end() && lost->second.epoch == state.around.scene_since &&
            lost->second.came_by == state.arms.came_by(arm);
   });
 }
@@ -185,7 +185,7 @@ bool WaitCycles::resolve(Transitions& state, const WaitCycle& ring) {
   keep_those_behind(state, last);
   for (ArmId arm : last.trajectory->arms()) {
     if (last.job->system_job) break;
-    lost_.insert_or_assign(arm, Lost{state->arms.came_by(arm), state->scene_epoch});
+    lost_.insert_or_assign(arm, Lost{state->arms.came_by(arm), state->around.scene_since});
   }
   give_up_with_approaches(state, last, {AfterStop::Then::fail, Reason::deadlock});
   return true;

@@ -41,7 +41,7 @@ class WaitCycles {
  private:
   struct Named {
     WaitCycle ring;
-    Version epoch;               // State::scene_epoch when found
+    Version epoch;               // Surroundings::scene_since when found
     std::vector<JobId> in_turn;  // jobs that wait for the next job, but not because of a conflict
     bool way_out = false;        // a retreat or replan is being tried, or a job expires
   };

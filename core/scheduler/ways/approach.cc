@@ -83,7 +83,7 @@ void give_up_with_approaches(Transitions& state, const Step& step, const AfterSt
 
 std::optional<JobId> approached_job(const State& state, JobId approach) {
   const Step& own = state.jobs.at(approach);
-  if (!own.job->errand.before || !state.jobs.is_active(*own.job->errand.before))
+  if (!own.job->errand.before || !state.jobs.active().contains(*own.job->errand.before))
     return std::nullopt;
   const std::vector<JobId> all = approaches_of(state, state.jobs.at(*own.job->errand.before));
   return std::ranges::find(all, approach) != all.end() ? own.job->errand.before : std::nullopt;

@@ -75,7 +75,7 @@ void ask(Transitions& state, const Step& step, Detour detour) {
       .at = detour.request.beside,
       .seed = step.id.job.value() + 1U + static_cast<std::uint64_t>(detour.request.tries),
       .budget = kDetourBudget};
-  detour.request = send(state, step, std::move(detour.request), std::move(question));
+  detour.request = send(state, step, ForDetour{}, std::move(detour.request), std::move(question));
   state.jobs().set(step, std::move(detour));
 }
 
@@ -122,7 +122,7 @@ bool weighs_detour(Transitions& state, const Step& step, const std::vector<PairR
   if (arrives <= soon_enough || (had && had->request.tries >= kDetoursMax)) return false;
   Configuration beside = places_held(state, step, regions);
   const bool is_as_tried =
-      had && had->request.asked_at >= state->scene_epoch && had->request.beside == beside;
+      had && had->request.asked_at >= state->around.scene_since && had->request.beside == beside;
   if (is_as_tried) return false;
   Detour detour = had.value_or(Detour{});
   detour.request.beside = std::move(beside);
@@ -149,11 +149,9 @@ bool gives_detour_up(Transitions& state, const Step& step) {
 
 void take_detour(Transitions& state, const Step& step, const PlanMade& answer) {
   Detour detour = *step.goal->detour;
-  detour.request.question.reset();
-  state.jobs().set(step, detour);
   if (!may_go_round(step)) return;
   const bool fits = answer.trajectory && detour.best &&
-                    detour.request.asked_at >= state->scene_epoch &&
+                    detour.request.asked_at >= state->around.scene_since &&
                     answer.trajectory->start().isApprox(detour.best->start());
   const bool is_sooner = fits && state->now + state->time_for(*answer.trajectory) < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.

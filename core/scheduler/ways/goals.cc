@@ -21,7 +21,8 @@ bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.
 bool fits(const State& state, const GoalWay& way, const Configuration& at) {
-  const bool is_asked = way.request.beside.size() != 0 && way.request.asked_at >= state.scene_epoch;
+  const bool is_asked =
+      way.request.beside.size() != 0 && way.request.asked_at >= state.around.scene_since;
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 
@@ -114,7 +115,7 @@ void ask(Transitions& state, const Step& step, std::size_t which, const Configur
   way.is_planned = false;
   way.refusal.reset();
   way.stands_in.reset();
-  way.request = send(state, step, std::move(way.request), std::move(question));
+  way.request = send(state, step, ForGoal{which}, std::move(way.request), std::move(question));
   state.jobs().set(step, which, std::move(way));
 }
 
@@ -129,7 +130,7 @@ enum class Answered {
 // What is not known of the way, or is out of date, is asked.
 Answered answer_of(Transitions& state, const Step& step, std::size_t which) {
   const GoalWay& way = step.goal->ways[which];
-  if (way.request.question) return Answered::not_yet;
+  if (step.plans.is_open(ForGoal{which})) return Answered::not_yet;
   const auto at = at_its_turn(state, step, way);
   if (!at) return Answered::not_asked;
   if (fits(state, way, *at)) {
@@ -186,7 +187,7 @@ Answered answer_of(Transitions& state, const Step& step) {
 bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
-  for (const Step& other : state.jobs.of(state.jobs.undecided())) {
+  for (const Step& other : state.jobs.of(state.jobs.active().undecided())) {
     const bool is_put_off = other.state() == JobState::backlogged;
     if (other.has_open_arm() && !is_put_off && other.job->turn < step.job->turn) ++before;
   }
@@ -248,7 +249,7 @@ std::string why_none(const State& state, const Step& step) {
 
 bool plan_goals(Transitions& state) {
   bool any_failed = false;
-  if (!state->jobs.has_goals()) return any_failed;
+  if (!state->jobs.active().have_goals()) return any_failed;
   for (std::uint32_t arm = 0; arm < state->cell->arms.size(); ++arm) {
     while (const Step* step = plan_lane(state, ArmId{arm})) {
       if (waits_to_retry(state, *step)) continue;
@@ -270,13 +271,12 @@ void forget_plan(Transitions& state, const Step& step) {
 void take_goal_plan(Transitions& state, const Step& step, std::size_t which,
                     const PlanMade& answer) {
   GoalWay way = step.goal->ways[which];
-  way.request.question.reset();
   if (answer.trajectory) {
     way.is_planned = true;
     way.goes_through = answer.goes_through;
   } else {
-    way.refusal = answer.why;
-    way.stands_in = answer.stands_in;
+    way.refusal = answer.none.why;
+    way.stands_in = answer.none.stands_in;
   }
   state.jobs().set(step, which, std::move(way));
   if (answer.trajectory) state.take_plan(step, which, answer.trajectory);

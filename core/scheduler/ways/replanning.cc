@@ -49,7 +49,7 @@ PlanQuestion question_about(const State& state, const Step& step) {
   const Configuration at = rest_after_admitted(state, &step);
   PlanQuestion question{.goal = goal_of(state, step, at),
                         .at = at,
-                        .seed = step.id.job.value() + kSeedsOfOneTry * step.asking.plans};
+                        .seed = step.id.job.value() + kSeedsOfOneTry * step.plans.sent()};
   if (step.another_way->cause != AnotherWay::Cause::client)
     return question;  // they are what it shall pass
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
@@ -70,13 +70,14 @@ bool fits(const State& state, const Step& step) {
   const auto& joints = state.cell->arm(arm_of(step)).joints;
   const Eigen::VectorXd from = joints_of(other.request.beside, joints);
   const Eigen::VectorXd stands = joints_of(rest_after_admitted(state, &step), joints);
-  return other.request.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
+  return other.request.asked_at >= state.around.scene_since && is_same_place(state, from, stands);
 }
 
 void ask_at_rest(Transitions& state, const Step& step) {
-  if (!step.is_waiting() || step.another_way->request.question) return;
+  if (!step.is_waiting() || step.plans.is_open(ForReplan{})) return;
   AnotherWay other = *step.another_way;
-  other.request = send(state, step, std::move(other.request), question_about(state, step));
+  other.request =
+      send(state, step, ForReplan{}, std::move(other.request), question_about(state, step));
   state.jobs().set(step, std::move(other));
 }
 
@@ -114,8 +115,6 @@ void plan_other_ways(Transitions& state) {
 
 bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer) {
   AnotherWay other = *step.another_way;
-  other.request.question.reset();
-  state.jobs().set(step, other);
   if (!other.is_open || !step.is_waiting()) return false;  // if it is braking, it asks again
   const bool is_fit = fits(state, step);
   if (!is_fit && other.request.tries < kReplansMax) {
@@ -127,8 +126,8 @@ bool take_other_way(Transitions& state, const Step& step, const PlanMade& answer
   if (is_taken) {
     ++other.done;
   } else {
-    other.refusal =
-        is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
+    other.refusal = is_fit ? answer.none.why
+                           : "plan was out of date: the arm had moved or the scene had changed";
   }
   state.jobs().set(step, other);
   if (is_taken) {
@@ -156,7 +155,7 @@ bool may_go_around(const State& state, const Step& step) {
   if (!step.is_waiting() && !step.pausing()) return false;
   if (!step.another_way) return true;
   const bool is_as_tried =
-      step.another_way->request.asked_at >= state.scene_epoch &&
+      step.another_way->request.asked_at >= state.around.scene_since &&
       is_same_place(state, step.another_way->request.beside, rest_after_admitted(state, &step));
   return step.another_way->request.tries < kReplansMax && !is_as_tried;
 }

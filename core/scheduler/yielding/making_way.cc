@@ -11,7 +11,7 @@ namespace {
 
 bool helps_somebody(const State& state, const Step& own) {
   const JobId helped = own.job->errand.on_behalf_of;
-  return helped != own.id.job && state.jobs.is_active(helped);
+  return helped != own.id.job && state.jobs.active().contains(helped);
 }
 
 bool returns_from(const Step& own, const std::vector<JobId>& moves) {

@@ -93,7 +93,7 @@ std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId ar
       state.arms.is_stopped(arm)) {
     return std::nullopt;
   }
-  if (!state.jobs.is_active(step.job->errand.on_behalf_of)) return std::nullopt;
+  if (!state.jobs.active().contains(step.job->errand.on_behalf_of)) return std::nullopt;
   const YieldsTried& tried = tried_for(step, arm);
   const YieldsTried& of_all = tried_for(state.jobs.at(step.job->errand.on_behalf_of), arm);
   if (of_all.total >= kYieldsMax) return std::nullopt;
@@ -189,7 +189,7 @@ Question question_about(const State& state, const YieldTrial& move) {
 }
 
 bool is_as_asked(const State& state, const YieldTrial& move) {
-  if (!state.jobs.is_active(move.blocked_job)) return false;
+  if (!state.jobs.active().contains(move.blocked_job)) return false;
   const auto& queue = state.jobs.queues()[move.arm];
   return move.before ? !queue.empty() && queue.front().job == *move.before : queue.empty();
 }
@@ -231,17 +231,16 @@ void note_tried(Transitions& state, const YieldTrial& move, bool goes) {
 
 void ask_for_way_aside(Transitions& state, const YieldTrial& move) {
   const Step& step = state->jobs.at(move.blocked_job);
+  if (step.plans.is_open(ForRetreat{move.arm})) return;
   YieldsTried tried = tried_for(step, move.arm);
-  if (tried.planned.request.question) return;
   tried.from = state->arms.came_by(move.arm);
   tried.next = move.index;
   tried.planned = {};
-  tried.planned.request =
-      send(state, step, {},
-           {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
-            .at = rest_after_admitted(state),
-            .seed = step.id.job.value()});
   state.jobs().set(step, move.arm, std::move(tried));
+  (void)send(state, step, ForRetreat{move.arm}, {},
+             {.goal = {.arm = move.arm, .to = ClearOf{step.trajectory, step.progress}},
+              .at = rest_after_admitted(state),
+              .seed = step.id.job.value()});
 }
 
 void take_way_aside(Transitions& state, const Step& step, ArmId arm, const PlanMade& answer) {

@@ -1,0 +1,64 @@
+// Commands to arms: stop, resume, speed override, shutdown.
+#include <algorithm>
+#include <utility>
+
+#include "core/executive/arms_of.h"
+#include "core/executive/executive_impl.h"
+
+namespace armloom {
+
+void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
+                           Alert::Level level, StopCategory category) {
+  // Whoever asks again and again is heard each time, and told of once.
+  const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
+    const auto& stop = scheduler_.state().arms.stop_of(arm);
+    return !stop || stop->cause != cause;
+  });
+  if (is_news) {
+    publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
+                    clock_.now);
+  }
+  step(Stop{arms, cause});
+  if (category == StopCategory::brake) return;
+  for (const ArmId arm : arms) execution_.brake(arm, category);
+}
+
+std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
+  const auto is_absent = [this](ArmId arm) {
+    const ArmLink::State link = execution_.motions().link(arm).state();
+    return link == ArmLink::State::connecting || link == ArmLink::State::lost;
+  };
+  const auto absent =
+      std::stable_partition(arms.begin(), arms.end(), [&](ArmId arm) { return !is_absent(arm); });
+  const std::vector<ArmId> not_resumed(absent, arms.end());
+  arms.erase(absent, arms.end());
+  if (!not_resumed.empty()) {
+    publisher_.tell(Alert{Alert::Level::warning,
+                          "not resumed: " + names_of(*cell_, not_resumed) +
+                              " (no link to the controller): resume again when the link is up"},
+                    clock_.now);
+  }
+  if (arms.empty()) return not_resumed;
+  publisher_.tell(Alert{Alert::Level::info, "resumed: " + names_of(*cell_, arms)}, clock_.now);
+  for (const ArmId arm : arms) watch_.locate(arm);
+  for (const ArmId arm : arms) watch_.resumed(arm);
+  step(Resume{arms});
+  return not_resumed;
+}
+
+void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
+  step(SetSpeed{arm, share});
+  std::vector<double> shares;
+  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.state().speed.effective(each));
+  execution_.set_speed(std::move(shares));
+  publisher_.tell_arms(clock_.now);
+}
+
+void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
+                          std::function<void()> done) {
+  clock_.wind_down = {std::move(done), keeps_waiting};
+  clients_.intake.close();
+  stop(all_arms(*cell_), cause, Alert::Level::info);
+}
+
+}  // namespace armloom
