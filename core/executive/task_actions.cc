@@ -12,7 +12,6 @@ namespace armloom {
 TaskActions::TaskActions(const Modules& modules, std::function<void()> go_on)
     : Modules(modules), go_on_(std::move(go_on)) {}
 
-
 bool TaskActions::takes_wake() {
   if (clock_.now < wakes_at_) return false;
   wakes_at_ = TimePoint::max();
