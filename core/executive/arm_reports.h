@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// What clients see of the arms.
+// The views of arms for clients.
 class ArmReports {
  public:
   // The objects of which it tells; all outlive it.

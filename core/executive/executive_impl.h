@@ -39,7 +39,7 @@ class Executive::Impl {
   [[nodiscard]] TimePoint settled_until() const;
   void follow_policy();
 
-  // What serves the clients.
+  // The modules that serve clients.
   struct Clients {
     JobIntake intake;
     TaskRun tasks;

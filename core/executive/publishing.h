@@ -83,13 +83,12 @@ class Publisher {
   void tell_stopped(TimePoint now);
   void tell_queue(QueueView queue, TimePoint now);
 
-  // Of what changes often and is large: the next report is due after a time that grows with its
-  // size.
+  // The time of the next report of something large that changes often: it grows with the size.
   struct Pace {
     bool is_behind = false;
     TimePoint next{};
   };
-  // What observers were told last.
+  // The last reports to observers.
   struct Told {
     bool rest = false;
     std::vector<ArmId> stops = {};

@@ -91,7 +91,7 @@ class ArmRests {
   // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
-  // Of several stops, the first one counts; a stop until the connection is replaced by any other.
+  // The first of several stops counts; a stop until the connection is replaced by any other.
   void stop(ArmId arm, std::string cause, bool until_connected = false);
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
 

@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// Purposes of a planned path: who takes the answer. std::monostate: nobody any more.
+// Purposes of a planned path: who takes the answer. std::monostate: no one any more.
 struct ForGoal {
   std::size_t way;  // index into JobGoal::ways
   bool operator==(const ForGoal&) const = default;

@@ -29,7 +29,7 @@ struct Round {
   bool has_begun = false;  // one of them has moved
 };
 
-// What is known of the cell's surroundings.
+// The known state of the cell's surroundings.
 struct Surroundings {
   std::map<std::string, SignalChanged> signals = {};  // the last of each, by name
   Version scene_since = 0;          // the version since which the scene is unchanged

@@ -107,7 +107,7 @@ std::string slug_of(const Result<CollisionObject>& answer) {
   return answer ? "" : answer.error().front().slug;
 }
 
-// The job ends while the arm holds the part, and nobody would let it go.
+// The job ends while the arm holds the part, and no job would detach it.
 TEST(Detach, LetsGoOfWhatAFailedJobHolds) {
   Tasks cell;
   EXPECT_EQ(slug_of(cell.executive().detach("part")), "not-held");
