@@ -59,15 +59,10 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
       scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
   const ArmKinematics& arm = geometry_->kinematics;
   rest_.reserve(arm.joints().size());
-  column_.reserve(arm.joints().size());
   for (const JointId joint : arm.joints()) {
     rest_.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
-    column_.push_back(-1);
-    if (!trajectory_) continue;
-    const auto& moved = trajectory_->joints();
-    const auto found = std::find(moved.begin(), moved.end(), joint);
-    if (found != moved.end()) column_.back() = static_cast<int>(found - moved.begin());
   }
+  find_columns(trajectory_ ? trajectory_->joints() : std::vector<JointId>{});
   shift_.assign(rest_.size(), 0.0);
   error_.assign(rest_.size(), tracking_error);
 }
@@ -91,6 +86,31 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach&
   }
 }
 
+void MotionTube::find_columns(const std::vector<JointId>& moved) {
+  column_.clear();
+  for (const JointId joint : kinematics().joints()) {
+    const auto found = std::find(moved.begin(), moved.end(), joint);
+    column_.push_back(found == moved.end() ? -1 : static_cast<int>(found - moved.begin()));
+  }
+}
+
+void MotionTube::move_along(const std::vector<JointId>& joints, const Eigen::VectorXd& from,
+                            const Eigen::VectorXd& to, Duration duration) {
+  if (trajectory_ || line_from_.size() != from.size()) find_columns(joints);
+  trajectory_ = nullptr;
+  begin_ = Duration{};
+  line_from_ = from;
+  if (duration > Duration{}) {
+    line_velocity_ = (to - from) / to_seconds(duration);
+  } else {
+    line_velocity_.setZero(from.size());
+  }
+  restart(duration);
+  placements_.clear();
+  self_hits_.clear();
+  used_ = 0;
+}
+
 std::size_t MotionTube::bytes() const {
   std::size_t bytes =
       size() * (sizeof(Placement) + sizeof(Duration) * 3) + self_hits_.capacity() * sizeof(SelfHit);
@@ -107,6 +127,9 @@ std::size_t MotionTube::bytes() const {
 
 void MotionTube::configuration(Duration time, double* q) {
   if (trajectory_) trajectory_->sample_positions(begin_ + time, scratch_->position);
+  if (line_from_.size() > 0) {
+    scratch_->position = line_from_ + to_seconds(time) * line_velocity_;
+  }
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     q[row] = column_[row] < 0 ? rest_[row] : scratch_->position[column_[row]] + shift_[row];
   }
@@ -139,11 +162,21 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
+void MotionTube::enclose(int node, Trajectory::AboutLine& line) const {
+  if (trajectory_) {
+    trajectory_->enclose_about_line(begin_ + from(node), begin_ + to(node), line);
+  } else if (line_from_.size() > 0) {
+    line.position = line_from_ + to_seconds(middle(node)) * line_velocity_;
+    line.velocity = line_velocity_;
+    line.off.setZero(line_from_.size());
+  }
+}
+
 // Fills a lane with the configuration at the middle of the interval. Also fills in bounds of the
 // joints' deviation from this configuration, and from a line through it in joint space.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
-  if (trajectory_) trajectory_->enclose_about_line(begin_ + from(node), begin_ + to(node), s.line);
+  enclose(node, s.line);
   // Nodes are cut at whole nanoseconds, so neither half of a node is longer than half_s.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
@@ -197,8 +230,8 @@ void MotionTube::place_batch(std::span<const int> nodes) {
     }
   }
   const std::size_t capsules = arm.capsules().size();
-  blocks_.push_back(std::make_unique<Block>());
-  Block& block = *blocks_.back();
+  if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<Block>());
+  Block& block = *blocks_[used_++];
   block.capsules.resize(lane_size(capsules * 6));
   block.motion_bound.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
@@ -224,7 +257,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       kernel.near_pairs(side, side, geometry_->self.ungrouped(), lanes, s.hits.data());
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
-    node.block = blocks_.size() - 1;
+    node.block = used_ - 1;
     node.lane = lane;
     node.self_begin = self_hits_.size();
     for (int h = 0; h < found; ++h) {

@@ -40,6 +40,12 @@ class MotionTube : public TimeTree {
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach& reach,
              std::shared_ptr<Scratch> scratch);
 
+  // Replaces the motion by a straight line in joint space of `duration`, or by a rest at `from` if
+  // duration is zero. Forgets all nodes, but keeps their memory for the next ones. `joints`: those
+  // of `from` and `to`, in their order.
+  void move_along(const std::vector<JointId>& joints, const Eigen::VectorXd& from,
+                  const Eigen::VectorXd& to, Duration duration);
+
   [[nodiscard]] const ArmKinematics& kinematics() const { return geometry_->kinematics; }
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
@@ -115,16 +121,20 @@ class MotionTube : public TimeTree {
   void place_batch(std::span<const int> nodes);
   void collect_stretches(int node, std::vector<int>& stretches);
   void fill_lane(int node, int lane);
+  void find_columns(const std::vector<JointId>& moved);
+  void enclose(int node, Trajectory::AboutLine& line) const;
 
   std::shared_ptr<const ArmGeometry> geometry_;
   TrajectoryPtr trajectory_;
-  std::vector<int> column_;    // by row: index in the trajectory's joints, or -1
+  Eigen::VectorXd line_from_, line_velocity_;  // empty unless moving along a line
+  std::vector<int> column_;    // by row: index in the joints of the trajectory or line, or -1
   std::vector<double> rest_;   // by row
   Duration begin_{};           // trajectory time at which the tube begins
   std::vector<double> shift_;  // by row, of joints on the motion
   std::vector<double> error_;  // by row: largest deviation of the joint
   std::vector<Placement> placements_;
   std::vector<std::unique_ptr<Block>> blocks_;
+  std::size_t used_ = 0;  // number of blocks in use
   std::vector<SelfHit> self_hits_;
 
   std::shared_ptr<Scratch> scratch_;
