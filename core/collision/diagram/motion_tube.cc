@@ -118,8 +118,8 @@ std::size_t MotionTube::bytes() const {
   if (blocks_.empty()) return bytes;
   const Block& block = *blocks_.front();  // all blocks have the same size
   std::size_t numbers = block.frames.size() * 2;
-  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.drifts,
-                          &block.looses, &block.sweeps}) {
+  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.spread,
+                          &block.drifts, &block.looses, &block.sweeps}) {
     numbers += row->size();
   }
   return bytes + blocks_.size() * (sizeof(Block) + numbers * sizeof(float));
@@ -235,6 +235,8 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   block.capsules.resize(lane_size(capsules * 6));
   block.motion_bound.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
+  const int spread = filter::spread_size(static_cast<int>(capsules));
+  block.spread.resize(static_cast<std::size_t>(4 * spread));
   block.frames.resize(lane_size(arm.frames().size() * 12));
   block.drifts = s.frames.drift;
   block.looses = s.frames.loose;
@@ -250,8 +252,11 @@ void MotionTube::place_batch(std::span<const int> nodes) {
                 block.motion_bound.data() + lane_size(c));
   }
   kernel.enclose(arm.view(), block.capsules.data(), block.motion_bound.data(),
-                 s.capsule_rows.data(), block.ball.data());
-  const filter::Side side{block.capsules.data(), s.motion_bounds.data(), nullptr};
+                 s.capsule_rows.data(), block.ball.data(), block.spread.data());
+  const filter::Side side{.capsules = block.capsules.data(),
+                          .motion_bound = s.motion_bounds.data(),
+                          .ball = nullptr,
+                          .sweeps = block.sweeps.data()};
   const unsigned lanes = (1U << nodes.size()) - 1U;
   const int found =
       kernel.near_pairs(side, side, geometry_->self.ungrouped(), lanes, s.hits.data());

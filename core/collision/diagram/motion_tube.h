@@ -63,6 +63,7 @@ class MotionTube : public TimeTree {
     std::vector<float> capsules;      // [capsule][6][kLanes]
     std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
     std::vector<float> ball;          // [4][kLanes], filter::Side::ball
+    std::vector<float> spread;        // filter::Spread::balls
     std::vector<double> frames;       // [frame][12][kLanes]
     std::vector<float> drifts;        // filter::JointMotions::drift
     std::vector<float> looses;        // filter::JointMotions::loose
