@@ -16,6 +16,10 @@ constexpr double kRounding = 1e-8;
 
 std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>(kLanes); }
 
+Eigen::Map<Eigen::Array<float, kLanes, 1>> lanes_of(std::vector<float>& rows, std::size_t row) {
+  return Eigen::Map<Eigen::Array<float, kLanes, 1>>(rows.data() + lane_size(row));
+}
+
 }  // namespace
 
 struct MotionTube::Scratch {
@@ -162,13 +166,25 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
-void MotionTube::enclose(int node, Trajectory::AboutLine& line) const {
-  if (trajectory_) {
-    trajectory_->enclose_about_line(begin_ + from(node), begin_ + to(node), line);
-  } else if (line_from_.size() > 0) {
-    line.position = line_from_ + to_seconds(middle(node)) * line_velocity_;
-    line.velocity = line_velocity_;
-    line.off.setZero(line_from_.size());
+// Fills all lanes for nodes of a straight line, which have the same width and so the same bounds.
+void MotionTube::fill_lanes_of_line(std::span<const int> nodes) {
+  Scratch& s = *scratch_;
+  const double half_s = 0.5 * to_seconds(width(nodes.front())) + 1e-9;
+  Eigen::Array<double, kLanes, 1> time_s;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    time_s[static_cast<Eigen::Index>(lane)] =
+        to_seconds(middle(nodes[std::min(lane, nodes.size() - 1)]));
+  }
+  for (std::size_t row = 0; row < rest_.size(); ++row) {
+    const int column = column_[row];
+    const double velocity = column < 0 ? 0.0 : line_velocity_[column];
+    const double from = column < 0 ? rest_[row] : line_from_[column];
+    const double drift = velocity * half_s;
+    const double loose = error_[row] + (column < 0 ? 0.0 : kRounding + 1e-6 * std::abs(drift));
+    Eigen::Map<Eigen::Array<double, kLanes, 1>>(&s.q[lane_size(row)]) = from + velocity * time_s;
+    lanes_of(s.joints.span, row) = round_up(std::abs(drift) + loose);
+    lanes_of(s.joints.drift, row) = static_cast<float>(drift);
+    lanes_of(s.joints.loose, row) = round_up(loose);
   }
 }
 
@@ -176,7 +192,7 @@ void MotionTube::enclose(int node, Trajectory::AboutLine& line) const {
 // joints' deviation from this configuration, and from a line through it in joint space.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
-  enclose(node, s.line);
+  if (trajectory_) trajectory_->enclose_about_line(begin_ + from(node), begin_ + to(node), s.line);
   // Nodes are cut at whole nanoseconds, so neither half of a node is longer than half_s.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
@@ -198,9 +214,7 @@ void MotionTube::fill_lane(int node, int lane) {
   }
 }
 
-void MotionTube::place_batch(std::span<const int> nodes) {
-  const ArmKinematics& arm = geometry_->kinematics;
-  const filter::Kernel& kernel = filter::best_kernel();
+void MotionTube::fill_lanes(std::span<const int> nodes) {
   Scratch& s = *scratch_;
   for (int lane = 0; lane < kLanes; ++lane) {
     const auto i = std::min(static_cast<std::size_t>(lane), nodes.size() - 1);
@@ -217,17 +231,25 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       }
     }
   }
+}
+
+void MotionTube::place_batch(std::span<const int> nodes) {
+  const ArmKinematics& arm = geometry_->kinematics;
+  const filter::Kernel& kernel = filter::best_kernel();
+  Scratch& s = *scratch_;
+  if (line_from_.size() > 0) {
+    fill_lanes_of_line(nodes);
+  } else {
+    fill_lanes(nodes);
+  }
   for (std::size_t f = 0; f < arm.frames().size(); ++f) {
     const filter::Frame& frame = arm.frames()[f];
     const float scale = round_up(std::abs(frame.multiplier));
     const auto factor = static_cast<float>(frame.multiplier);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      const std::size_t joint = lane_size(static_cast<std::size_t>(frame.joint)) + l;
-      s.frames.span[lane_size(f) + l] = scale * s.joints.span[joint] * 1.000001F;
-      s.frames.drift[lane_size(f) + l] = factor * s.joints.drift[joint];
-      s.frames.loose[lane_size(f) + l] = scale * s.joints.loose[joint] * 1.000001F;
-    }
+    const auto row = static_cast<std::size_t>(frame.joint);
+    lanes_of(s.frames.span, f) = scale * lanes_of(s.joints.span, row) * 1.000001F;
+    lanes_of(s.frames.drift, f) = factor * lanes_of(s.joints.drift, row);
+    lanes_of(s.frames.loose, f) = scale * lanes_of(s.joints.loose, row) * 1.000001F;
   }
   const std::size_t capsules = arm.capsules().size();
   if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<Block>());

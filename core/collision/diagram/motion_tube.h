@@ -51,7 +51,7 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
   // Places the nodes that are not placed yet, eight at once. Required before place_of(), axes_of()
-  // and self_hits().
+  // and self_hits(). Along a line (move_along), the nodes must be of one level of the tree.
   void place(std::span<const int> nodes);
   // Returns the memory used, including the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
@@ -123,7 +123,8 @@ class MotionTube : public TimeTree {
   void collect_stretches(int node, std::vector<int>& stretches);
   void fill_lane(int node, int lane);
   void find_columns(const std::vector<JointId>& moved);
-  void enclose(int node, Trajectory::AboutLine& line) const;
+  void fill_lanes(std::span<const int> nodes);
+  void fill_lanes_of_line(std::span<const int> nodes);
 
   std::shared_ptr<const ArmGeometry> geometry_;
   TrajectoryPtr trajectory_;
