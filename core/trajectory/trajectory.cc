@@ -29,19 +29,25 @@ void accelerations_at(const Coefficients& c, double t, Eigen::VectorXd& out) {
       ((20.0 * c.col(5) * t + 12.0 * c.col(4)) * t + 6.0 * c.col(3)) * t + 2.0 * c.col(2);
 }
 
-// Returns the six Taylor coefficients of joint j's polynomial about t.
-std::array<double, 6> shifted(const Coefficients& c, Eigen::Index j, double t) {
-  std::array<double, 6> p{c(j, 0), c(j, 1), c(j, 2), c(j, 3), c(j, 4), c(j, 5)};
+// Several joints are treated together, which is faster.
+constexpr Eigen::Index kJointsAtOnce = 8;
+using Joints = Eigen::Array<double, kJointsAtOnce, 1>;
+
+// Replaces the coefficients of a polynomial by its six Taylor coefficients about t. T: double, or
+// one value per joint.
+template <class T>
+void shift(std::array<T, 6>& p, double t) {
   for (std::size_t k = 0; k < 5; ++k) {
     for (std::size_t i = 5; i-- > k;) p[i] += t * p[i + 1];
   }
-  return p;
 }
 
 // Bounds |p(t) - p[0]| for |t| <= h.
-double swing(const std::array<double, 6>& p, double h) {
-  double sum = 0.0;
-  for (std::size_t k = 5; k >= 1; --k) sum = (sum + std::abs(p[k])) * h;
+template <class T>
+T swing(const std::array<T, 6>& p, double h) {
+  using std::abs;
+  T sum = abs(p[5]) * h;
+  for (std::size_t k = 4; k >= 1; --k) sum = (sum + abs(p[k])) * h;
   return sum;
 }
 
@@ -57,13 +63,16 @@ SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s) {
                        Eigen::VectorXd(size)};
   const double h = 0.5 * (to_s - from_s);
   for (Eigen::Index j = 0; j < size; ++j) {
-    const auto p = shifted(segment.coefficients, j, from_s + h);
+    const auto c = segment.coefficients.row(j);
+    std::array<double, 6> p{c[0], c[1], c[2], c[3], c[4], c[5]};
+    shift(p, from_s + h);
     const double far = swing(p, h);
     bounds.lower[j] = p[0] - far;
     bounds.upper[j] = p[0] + far;
-    bounds.speed[j] = std::abs(p[1]) + swing({0.0, 2 * p[2], 3 * p[3], 4 * p[4], 5 * p[5], 0.0}, h);
+    bounds.speed[j] =
+        std::abs(p[1]) + swing<double>({0.0, 2 * p[2], 3 * p[3], 4 * p[4], 5 * p[5], 0.0}, h);
     bounds.acceleration[j] =
-        2 * std::abs(p[2]) + swing({0.0, 6 * p[3], 12 * p[4], 20 * p[5], 0.0, 0.0}, h);
+        2 * std::abs(p[2]) + swing<double>({0.0, 6 * p[3], 12 * p[4], 20 * p[5], 0.0, 0.0}, h);
   }
   return bounds;
 }
@@ -80,7 +89,7 @@ Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
           "Trajectory: arms must ascend, each once");
   require(!segments.empty(), "Trajectory: no segments");
   starts_.reserve(segments.size());
-  coefficients_.reserve(segments.size() * joints_.size() * 6);
+  coefficients_.reserve(segments.size() * joints_.size() * 6 + kJointsAtOnce);
   for (const Segment& segment : segments) {
     require(segment.start == duration_, "Trajectory: segments must be contiguous from zero");
     require(segment.duration > Duration::zero(), "Trajectory: a segment must take time");
@@ -92,6 +101,7 @@ Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
                          segment.coefficients.data() + segment.coefficients.size());
     duration_ += segment.duration;
   }
+  coefficients_.insert(coefficients_.end(), kJointsAtOnce - 1, 0.0);  // for enclose_about_line()
   start_ = segments.front().coefficients.col(0);
   positions_at(segments.back().coefficients, to_seconds(segments.back().duration), goal_);
 }
@@ -176,20 +186,29 @@ void Trajectory::enclose_about_line(Duration from, Duration to, AboutLine& line)
   if (from == to) return;
   const std::size_t passed = segment_at(std::min(middle, duration_ - Duration(1)));
   velocities_at(piece(passed), to_seconds(middle - starts_[passed]), line.velocity);
-  for (std::size_t i = segment_at(std::min(from, duration_ - Duration(1)));
-       i < starts_.size() && starts_[i] < to; ++i) {
-    const Piece segment = piece(i);
-    const Duration first = std::max(from - starts_[i], Duration::zero());
-    const Duration last = std::min(to, end_of(i)) - starts_[i];
-    const double h = 0.5 * to_seconds(last - first);
-    const double at = to_seconds(first) + h;  // since the segment's start
-    const double ahead = to_seconds(starts_[i] - middle) + at;
-    for (Eigen::Index j = 0; j < line.off.size(); ++j) {
-      auto p = shifted(segment, j, at);
-      const double there = std::abs(p[0] - line.position[j] - line.velocity[j] * ahead);
-      p[1] -= line.velocity[j];
-      line.off[j] = std::max(line.off[j], there + swing(p, h));
+  const std::size_t first = segment_at(std::min(from, duration_ - Duration(1)));
+  for (Eigen::Index j = 0; j < line.off.size(); j += kJointsAtOnce) {
+    const Eigen::Index count = std::min(kJointsAtOnce, line.off.size() - j);
+    Joints position = Joints::Zero(), velocity = Joints::Zero(), off = Joints::Zero();
+    position.head(count) = line.position.segment(j, count).array();
+    velocity.head(count) = line.velocity.segment(j, count).array();
+    for (std::size_t i = first; i < starts_.size() && starts_[i] < to; ++i) {
+      const Duration begin = std::max(from - starts_[i], Duration::zero());
+      const Duration end = std::min(to, end_of(i)) - starts_[i];
+      const double h = 0.5 * to_seconds(end - begin);
+      const double at = to_seconds(begin) + h;  // since the segment's start
+      const double ahead = to_seconds(starts_[i] - middle) + at;
+      std::array<Joints, 6> p;  // joints past the end have numbers without a meaning
+      const Piece segment = piece(i);
+      for (std::size_t k = 0; k < 6; ++k) {
+        p[k] = Eigen::Map<const Joints>(segment.col(static_cast<Eigen::Index>(k)).data() + j);
+      }
+      shift(p, at);
+      const Joints there = (p[0] - position - velocity * ahead).abs();
+      p[1] -= velocity;
+      off = off.max(there + swing(p, h));
     }
+    line.off.segment(j, count) = off.head(count);
   }
 }
 

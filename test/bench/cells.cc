@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -70,6 +71,35 @@ Eigen::Isometry3d standing_at(double x_m, double y_m, double yaw) {
 }  // namespace
 
 CellPtr two_pandas() { return value_of(build_cell(two_pandas_description())); }
+
+CellPtr panda_among_objects(bool contact) {
+  const CellDescription like = two_pandas_description();
+  CellDescription cell = empty_cell("objects", like);
+  cell.robots.push_back(panda(like.robots[0], 0, Eigen::Isometry3d::Identity()));
+  const Eigen::Vector3d shoulder(0.0, 0.0, 0.333);
+  std::mt19937_64 random(53);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Vector3d direction(between(-1.0, 1.0), between(-1.0, 1.0), between(-0.3, 1.0));
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.translation() = shoulder + between(0.4, 0.9) * direction.normalized();
+    X_WO.linear() =
+        Eigen::AngleAxisd(between(0.0, std::numbers::pi), Eigen::Vector3d::UnitZ()).matrix();
+    const double size_m = between(0.1, 0.2);
+    const Shape shape = i % 2 == 0 ? Shape(Box{{size_m, between(0.1, 0.2), between(0.1, 0.2)}})
+                                   : Shape(Sphere{0.5 * size_m});
+    cell.objects.push_back({"object" + std::to_string(i), shape, X_WO});
+  }
+  if (contact) {
+    cell.clearance_m = 0.0;
+    cell.self_clearance_m = 0.0;
+    cell.monitor.stop_clearance_m = 0.0;
+    cell.checking.tracking_error_rad = 0.0;
+  }
+  return value_of(build_cell(cell));
+}
 
 CellPtr circle_of_pandas(std::size_t count, double radius_m) {
   const CellDescription like = two_pandas_description();

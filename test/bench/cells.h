@@ -11,6 +11,11 @@ namespace armloom::bench {
 
 [[nodiscard]] CellPtr two_pandas();
 
+// Returns one Panda among ten boxes and ten spheres, without a table. Their sizes are 0.1 to 0.2 m
+// and their places random, 0.4 to 0.9 m from the arm's shoulder. If `contact`, all clearances and
+// the tracking error are 0.
+[[nodiscard]] CellPtr panda_among_objects(bool contact);
+
 // Returns `count` Pandas evenly on a circle, facing its center, on one table.
 [[nodiscard]] CellPtr circle_of_pandas(std::size_t count, double radius_m);
 

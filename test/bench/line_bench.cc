@@ -1,8 +1,14 @@
-// line_bench [EDGES]
-// Checks edges of a planner: one arm moves straight through its joint space while the others rest.
-// Compares LineChecker, which certifies the whole edge, with FCL the MoveIt way at states 0.01 rad
-// apart (contact only). Prints the times, and the colliding edges that the samples miss.
+// line_bench [EDGES [STATES]]
+// Second table: checks of states and of lines of 0.5 rad of one arm among objects (STATES, random).
+// Means of one call, by thread CPU time; each is the median of five rounds.
+// First table: checks edges of a planner: one arm moves straight through its joint space while the
+// others rest. Compares LineChecker, which certifies the whole edge, with FCL the MoveIt way at
+// states 0.01 rad apart (contact only). Prints the times, and the colliding edges that the samples
+// miss.
+#include <time.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -123,12 +129,99 @@ void run(const char* name, const CellPtr& cell, std::size_t edges) {
   std::fflush(stdout);
 }
 
+// ---- One arm among objects ----
+
+double thread_time_us() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
+}
+
+// Returns the time of one call of visit(i), for i below `count`.
+double mean_us(std::size_t count, const auto& visit) {
+  std::array<double, 5> rounds{};
+  for (double& round : rounds) {
+    const double begin = thread_time_us();
+    for (std::size_t i = 0; i < count; ++i) visit(i);
+    round = (thread_time_us() - begin) / static_cast<double>(std::max<std::size_t>(count, 1));
+  }
+  std::ranges::sort(rounds);
+  return rounds[2];
+}
+
+struct Line {
+  Eigen::VectorXd from, to;
+};
+
+// Returns a random line of 0.5 rad that begins at q, cut at the joints' limits.
+Line line_from(const Cell& cell, const Eigen::VectorXd& q, std::mt19937_64& random) {
+  Eigen::VectorXd step(q.size());
+  for (double& each : step) each = std::normal_distribution()(random);
+  Line line{q, q + 0.5 / step.norm() * step};
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    const Joint& joint = cell.joint(cell.arms[0].joints[static_cast<std::size_t>(j)]);
+    line.to[j] = std::clamp(line.to[j], joint.lower, joint.upper);
+  }
+  return line;
+}
+
+void run_among_objects(const char* name, const CellPtr& cell, std::size_t count) {
+  const PlanningScenePtr scene = *PlanningScene::build(cell);
+  ClearanceQuery query(scene);
+  LineChecker checker(scene, ArmId{0}, cell->home(), cell->checking.tracking_error_rad);
+  std::mt19937_64 random(54);
+  std::vector<Configuration> clear, close;
+  for (std::size_t i = 0; i < count; ++i) {
+    Configuration q = cell->home();
+    for (const JointId id : cell->arms[0].joints) {
+      q[static_cast<Eigen::Index>(id.index())] =
+          std::uniform_real_distribution(cell->joint(id).lower, cell->joint(id).upper)(random);
+    }
+    const Configuration* one = &q;
+    (query.too_close({&one, 1}) == 0 ? clear : close).push_back(q);
+  }
+  std::vector<Line> free, refused;
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < count && !clear.empty(); ++i) {
+    Eigen::VectorXd q(static_cast<Eigen::Index>(cell->arms[0].joints.size()));
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const JointId id = cell->arms[0].joints[static_cast<std::size_t>(j)];
+      q[j] = clear[i % clear.size()][static_cast<Eigen::Index>(id.index())];
+    }
+    if (!checker.is_free(q, q)) continue;  // too close with the tracking error
+    Line line = line_from(*cell, q, random);
+    const auto kind = checker.line(line.from, line.to).kind;
+    undecided += kind == LineChecker::Kind::undecided ? 1 : 0;
+    (kind == LineChecker::Kind::free ? free : refused).push_back(std::move(line));
+  }
+  const auto state = [&](const std::vector<Configuration>& of) {
+    return mean_us(of.size(), [&](std::size_t i) {
+      const Configuration* one = &of[i];
+      (void)query.too_close({&one, 1});
+    });
+  };
+  const double by_eights = mean_us(clear.size() / 8, [&](std::size_t i) {
+    std::array<const Configuration*, 8> eight;
+    for (std::size_t k = 0; k < 8; ++k) eight[k] = &clear[8 * i + k];
+    (void)query.too_close(eight);
+  });
+  const auto lines = [&](const std::vector<Line>& of) {
+    return mean_us(of.size(), [&](std::size_t i) { (void)checker.is_free(of[i].from, of[i].to); });
+  };
+  const double points = mean_us(
+      free.size(), [&](std::size_t i) { (void)checker.is_free(free[i].from, free[i].from); });
+  std::printf("| %s | %zu of %zu | %.3f | %.2f | %.2f | %zu of %zu, %zu | %.2f | %.2f | %.2f |\n",
+              name, clear.size(), count, by_eights / 8.0, state(clear), state(close), free.size(),
+              free.size() + refused.size(), undecided, lines(free), points, lines(refused));
+}
+
 }  // namespace
 }  // namespace armloom::bench
 
 int main(int argc, char** argv) {
   using namespace armloom::bench;
   const std::size_t edges = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 600;
+  const std::size_t states = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 10'000;
   std::printf(
       "| cell | edges | free | proven: us, median | p95 | of free ones: median | p95 | FCL "
       "sampled: "
@@ -136,5 +229,11 @@ int main(int argc, char** argv) {
       "clearance |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   run("two Pandas", two_pandas(), edges);
   run("four Pandas", circle_of_pandas(4, 0.55), edges);
+  std::printf(
+      "\n| one Panda among objects, us | clear states | clear state, by eights | one per call | "
+      "too close, one per call | free lines, undecided | free line | of length 0 | refused line "
+      "|\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  run_among_objects("contact", panda_among_objects(true), states);
+  run_among_objects("20 mm", panda_among_objects(false), states);
   return 0;
 }

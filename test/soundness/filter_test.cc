@@ -63,7 +63,7 @@ struct Results {
   Results(const filter::Kernel& kernel, const Comparison& of) : Results(kernel, of, of.arm) {}
 
   std::vector<double> frames;
-  std::vector<float> axes, capsules, motion_bounds, sweeps;
+  std::vector<float> axes, capsules, motion_bounds, sweeps, spread;
   std::vector<filter::Hit> hits, box_hits, unskipped_box_hits;
 
  private:
@@ -79,14 +79,20 @@ struct Results {
     kernel.place(arm.view(), of.q.data(), placed);
     kernel.inflate(arm.view(), placed, {of.span.data(), of.span.data(), of.span.data()},
                    {motion_bounds.data(), sweeps.data()});
-    const filter::Side side{capsules.data(), motion_bounds.data(), nullptr};
+    const filter::Side side{.capsules = capsules.data(),
+                            .motion_bound = motion_bounds.data(),
+                            .ball = nullptr,
+                            .sweeps = sweeps.data()};
     const filter::Pairs pairs{of.pairs.data(), static_cast<int>(of.pairs.size()), {}};
     hits.resize(
         static_cast<std::size_t>(kernel.near_pairs(side, side, pairs, of.lanes, hits.data())));
     std::vector<int> rows;
     for (const filter::Capsule& capsule : arm.capsules) rows.push_back(capsule.motion_bounds_begin);
     std::vector<float> ball(4 * kLanes);
-    kernel.enclose(arm.view(), capsules.data(), motion_bounds.data(), rows.data(), ball.data());
+    const int spread_size = filter::spread_size(static_cast<int>(arm.capsules.size()));
+    spread.resize(static_cast<std::size_t>(4 * spread_size));
+    kernel.enclose(arm.view(), capsules.data(), motion_bounds.data(), rows.data(), ball.data(),
+                   spread.data());
     const filter::Boxes boxes{of.boxes.data(), static_cast<int>(of.boxes.size()), of.boxed.data()};
     const auto hits_of = [&](const filter::Side& of_side) {
       std::vector<filter::Hit> found(of.boxes.size() * of.boxed.size() + 1);
@@ -94,8 +100,12 @@ struct Results {
           static_cast<std::size_t>(kernel.near_boxes(of_side, boxes, of.lanes, found.data())));
       return found;
     };
-    box_hits = hits_of({capsules.data(), motion_bounds.data(), ball.data()});
-    unskipped_box_hits = hits_of(side);  // without the ball
+    box_hits = hits_of({capsules.data(),
+                        motion_bounds.data(),
+                        ball.data(),
+                        {spread.data(), spread_size},
+                        sweeps.data()});
+    unskipped_box_hits = hits_of(side);  // without the balls
   }
 };
 
@@ -135,7 +145,7 @@ std::vector<filter::BoxedCapsule> boxed_capsules(const RandomLinkage& arm) {
   std::vector<filter::BoxedCapsule> boxed;
   for (int a = 0; a < static_cast<int>(arm.capsules.size()); ++a) {
     const filter::Capsule& capsule = arm.capsules[static_cast<std::size_t>(a)];
-    boxed.push_back({a, capsule.motion_bounds_begin, capsule.radius_up});
+    boxed.push_back({a, capsule.motion_bounds_begin, capsule.radius_up, capsule.ball_up});
   }
   return boxed;
 }
@@ -203,6 +213,11 @@ TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
     Comparison of{arm, std::vector<double>(static_cast<std::size_t>(arm.joints * kLanes)),
                   std::vector<float>(arm.frames.size() * kLanes)};
     for (double& x : of.q) x = random() % 8 == 0 ? 0.0 : uniform(random, -7.0, 7.0);
+    if (round % 2 == 0) {  // similar lanes, as along a line: far from some boxes all at once
+      for (std::size_t i = 0; i < of.q.size(); ++i) {
+        if (i % kLanes > 0) of.q[i] = of.q[i - 1] + uniform(random, 0.0, 0.05);
+      }
+    }
     for (float& x : of.span) x = static_cast<float>(uniform(random, 0.0, 0.05));
     of.pairs = all_pairs(arm, random);
     of.boxes = boxes_for(arm, random);
@@ -216,6 +231,7 @@ TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
       ASSERT_TRUE(same_bits(reference.frames, results.frames)) << kernel->name;
       ASSERT_TRUE(same_bits(reference.axes, results.axes)) << kernel->name;
       ASSERT_TRUE(same_bits(reference.capsules, results.capsules)) << kernel->name;
+      ASSERT_TRUE(same_bits(reference.spread, results.spread)) << kernel->name;
       ASSERT_TRUE(same_hits(reference.hits, results.hits)) << kernel->name;
       ASSERT_TRUE(same_hits(reference.box_hits, results.box_hits)) << kernel->name;
       expect_skips_only_far_boxes(of, results);

@@ -13,172 +13,194 @@ constexpr int kFirstLevels = 3;
 // Bodies mostly move towards each other by at least this share of their motion bounds. If their
 // distance exceeds the limit by less, no proof is tried.
 constexpr double kLineTowardsShare = 0.25;
-constexpr Duration kLength = std::chrono::seconds(1);
 
-// Returns a node of the line together with the only node of a counterpart at rest.
-TubePair::Nodes nodes_of(const TubePair& pair, const std::shared_ptr<MotionTube>& line, int node) {
-  if (pair.is_self()) return {node, node};
-  return pair.a() == line ? TubePair::Nodes{node, TimeTree::root()}
-                          : TubePair::Nodes{TimeTree::root(), node};
+using Undecided = TubePair::Undecided;
+
+// Returns by how much the distance may exceed the limit at most, according to the capsules.
+double room_m(const Undecided& u) { return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m; }
+
+// Returns a place of the line as a share of its length.
+double share_of(Duration place, Duration length) {
+  return length > Duration{} ? to_seconds(place) / to_seconds(length) : 0.0;
 }
 
 }  // namespace
 
 LineChecker::LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest,
                          const TrackingErrors& tracking_errors, const std::vector<ArmId>& left_out)
-    : scene_(std::move(scene)),
-      arm_(arm),
-      rest_(rest),
-      tracking_error_(tracking_errors.of(arm)),
-      geometry_(std::make_shared<const ArmGeometry>(scene_->bodies(), arm)),
-      tube_scratch_(MotionTube::make_scratch(*geometry_)),
-      pair_scratch_(TubePair::make_scratch()) {
+    : scene_(std::move(scene)), arm_(arm), pair_scratch_(TubePair::make_scratch()) {
+  const PlanningScene::Bodies& bodies = scene_->bodies();
   const Cell& cell = scene_->cell();
   if (static_cast<std::size_t>(rest.size()) != cell.joints.size()) {
     throw std::invalid_argument("LineChecker: rest must have one entry per joint of the cell");
   }
-  const auto add = [&](std::optional<ArmId> other, double error) {
-    auto geometry = std::make_shared<const ArmGeometry>(scene_->bodies(), other);
-    const bool turned = other && *other < arm;
-    PairSet pairs =
-        turned ? pairs_between(scene_->bodies(), geometry->kinematics, geometry_->kinematics)
-               : pairs_between(scene_->bodies(), geometry_->kinematics, geometry->kinematics);
-    if (pairs.empty()) return;
-    counterparts_.push_back(
-        {std::move(pairs), std::make_shared<MotionTube>(geometry, nullptr, rest, error)});
+  const auto geometry = std::make_shared<const ArmGeometry>(bodies, arm);
+  line_ = std::make_shared<MotionTube>(geometry, nullptr, rest, tracking_errors.of(arm));
+  const auto add_other = [&](std::optional<ArmId> other, double error) {
+    const auto of_other = std::make_shared<const ArmGeometry>(bodies, other);
+    const auto tube = std::make_shared<MotionTube>(of_other, nullptr, rest, error);
+    if (other && *other < arm) {
+      add(pairs_between(bodies, of_other->kinematics, geometry->kinematics), tube, line_);
+    } else {
+      add(pairs_between(bodies, geometry->kinematics, of_other->kinematics), line_, tube);
+    }
   };
   for (std::uint32_t a = 0; a < cell.arms.size(); ++a) {
     const bool is_out = std::ranges::find(left_out, ArmId{a}) != left_out.end();
-    if (ArmId{a} != arm && !is_out) add(ArmId{a}, tracking_errors.of(ArmId{a}));
+    if (ArmId{a} != arm && !is_out) add_other(ArmId{a}, tracking_errors.of(ArmId{a}));
   }
-  add(std::nullopt, 0.0);
-  if (!geometry_->self.empty()) counterparts_.push_back({geometry_->self, nullptr});
-  open_.resize(counterparts_.size());
+  add_other(std::nullopt, 0.0);
+  add(geometry->self, line_, line_);
 }
 
-std::shared_ptr<MotionTube> LineChecker::tube_along(const Eigen::VectorXd& from,
-                                                    const Eigen::VectorXd& to) const {
-  const Arm& arm = scene_->cell().arm(arm_);
-  Segment segment{Duration{}, kLength, {}};
-  segment.coefficients.setZero(from.size(), 6);
-  segment.coefficients.col(0) = from;
-  segment.coefficients.col(1) = (to - from) / to_seconds(kLength);
-  return std::make_shared<MotionTube>(
-      geometry_,
-      std::make_shared<const Trajectory>(arm.joints, std::vector{arm_}, std::vector{segment}),
-      rest_, tracking_error_, tube_scratch_);
+void LineChecker::add(PairSet pairs, std::shared_ptr<MotionTube> a, std::shared_ptr<MotionTube> b) {
+  if (pairs.empty()) return;
+  auto kept = std::make_unique<PairSet>(std::move(pairs));
+  TubePair tubes({&scene_->bodies(), kept.get(), pair_scratch_}, std::move(a), std::move(b));
+  counterparts_.push_back({std::move(kept), std::move(tubes), {}});
 }
 
-TubePair LineChecker::pair_with(const Counterpart& other,
-                                const std::shared_ptr<MotionTube>& tube) const {
-  const TubePair::Setting setting{&scene_->bodies(), &other.pairs, pair_scratch_};
-  if (!other.tube) return {setting, tube, tube};
-  const std::optional<ArmId> arm = other.tube->kinematics().arm();
-  const bool turned = arm && *arm < arm_;
-  return turned ? TubePair(setting, other.tube, tube) : TubePair(setting, tube, other.tube);
+// Returns a node of the line together with the only node of a counterpart at rest.
+TubePair::Nodes LineChecker::nodes_of(const TubePair& pair, int node) const {
+  if (pair.is_self()) return {node, node};
+  return pair.a() == line_ ? TubePair::Nodes{node, TimeTree::root()}
+                           : TubePair::Nodes{TimeTree::root(), node};
+}
+
+// Filters up to eight stretches. Adds those that stay undecided to `looks_`. If one of them is
+// proven to be in conflict, returns it. Tries the deepest overlap of capsules first.
+std::optional<LineChecker::Found> LineChecker::filter(std::size_t counterpart,
+                                                      std::span<const int> nodes, bool finest) {
+  TubePair& pair = counterparts_[counterpart].tubes;
+  TubePair::Nodes batch[filter::kLanes];
+  for (std::size_t i = 0; i < nodes.size(); ++i) batch[i] = nodes_of(pair, nodes[i]);
+  pair.filter({batch, nodes.size()});
+  evaluations_ += nodes.size();
+  deep_.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::vector<Undecided>& undecided = pair.undecided(i);
+    if (undecided.empty()) continue;
+    const std::size_t begin = undecided_.size();
+    undecided_.insert(undecided_.end(), undecided.begin(), undecided.end());
+    looks_.push_back({counterpart, nodes[i], begin, undecided_.size()});
+    for (const Undecided& u : undecided) {
+      const double over_m = u.distance_m + (finest ? 0.0 : u.slack_m) - u.limit_m;
+      if (over_m < 0.0) deep_.push_back({over_m, i, u});
+    }
+  }
+  std::ranges::sort(deep_, {}, &Deep::over_m);
+  for (const Deep& deep : deep_) {
+    const NarrowPair narrow = pair.narrow(deep.u.narrow, deep.u.box);
+    if (pair.limits_kept(narrow, batch[deep.of_batch], {&deep.u.limit_m, 1}) == 0) {
+      return Found{counterpart, nodes[deep.of_batch], true};
+    }
+  }
+  return std::nullopt;
 }
 
 // Decides a stretch from the pairs that the filter left undecided.
-LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
-                                       std::vector<TubePair::Undecided>& undecided) const {
-  if (undecided.empty()) return Stretch::free;
-  using Undecided = TubePair::Undecided;
-  // Returns by how much the distance may exceed the limit at most, according to the capsules.
-  const auto room = [](const Undecided& u) {
-    return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
-  };
-  std::ranges::sort(undecided, {}, [&](const Undecided& u) { return room(u) - u.moves_m(); });
+LineChecker::Stretch LineChecker::look(const Look& at) {
+  TubePair& pair = counterparts_[at.counterpart].tubes;
+  const TubePair::Nodes nodes = nodes_of(pair, at.node);
+  const std::span undecided = std::span(undecided_).subspan(at.begin, at.end - at.begin);
+  std::ranges::sort(undecided, {}, [&](const Undecided& u) { return room_m(u) - u.moves_m(); });
   for (const Undecided& u : undecided) {
-    const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
-    const bool hopeless = room(u) < kLineTowardsShare * u.moves_m();
-    if (hopeless) {  // cannot be proven free, so only a conflict is checked
-      const bool may_be = room(u) < 0.0;
-      return may_be && pair.limits_kept(narrow, at, {&u.limit_m, 1}) == 0 ? Stretch::conflict
-                                                                          : Stretch::open;
-    }
+    // Cannot be proven free.
+    if (room_m(u) < kLineTowardsShare * u.moves_m()) return Stretch::open;
+    const NarrowPair narrow = pair.narrow(u.narrow, u.box);
     const double enough_m = u.limit_m + u.moves_m();
     const double some_m = u.limit_m + kLineTowardsShare * u.moves_m();
     const double limits_m[] = {u.limit_m, some_m, enough_m};
-    const std::size_t kept = pair.limits_kept(narrow, at, limits_m);
+    const std::size_t kept = pair.limits_kept(narrow, nodes, limits_m);
     if (kept == 0) return Stretch::conflict;
     if (kept == 3) continue;
-    if (kept == 2 && pair.keeps_apart(narrow, at, u.limit_m, enough_m)) continue;
+    if (kept == 2 && pair.keeps_apart(narrow, nodes, u.limit_m, enough_m)) continue;
     return Stretch::open;
   }
   return Stretch::free;
 }
 
-// Returns a stretch that is in conflict or undecided, or nullopt if the line is free. Halves all
-// stretches level by level, so that conflicts are found early.
-std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<MotionTube>& tube,
-                                                      double distance) {
-  std::vector<int> level{TimeTree::root()};
-  for (int i = 0; i < kFirstLevels && distance > kFinest; ++i) {
-    const std::vector<int> above = std::exchange(level, {});
-    for (const int node : above) {
-      level.push_back(tube->first_child(node));
-      level.push_back(level.back() + 1);
-    }
+// Moves line_ along the line, and lists its first stretches in `level_`. Each of them is one
+// stretch of the tube. Returns the largest motion of a joint in one of them (rad, m).
+double LineChecker::cut(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  double distance = (to - from).lpNorm<Eigen::Infinity>();
+  Duration length = distance > 0.0 ? MotionTube::kStretch : Duration{};
+  int levels = 0;
+  for (; levels < kFirstLevels && distance > kFinest; ++levels) {
     distance *= 0.5;
+    length *= 2;
   }
-  std::vector<TubePair> pairs;
-  for (std::size_t c = 0; c < counterparts_.size(); ++c) {
-    pairs.push_back(pair_with(counterparts_[c], tube));
-    open_[c] = level;
+  line_->move_along(scene_->cell().arm(arm_).joints, from, to, length);
+  level_.assign(1, TimeTree::root());
+  for (int i = 0; i < levels; ++i) {
+    halves_.clear();
+    for (const int node : level_) {
+      halves_.push_back(line_->first_child(node));
+      halves_.push_back(halves_.back() + 1);
+    }
+    std::swap(level_, halves_);
   }
+  return distance;
+}
+
+// Returns a stretch that is in conflict or undecided, or nullopt if the line is free. Halves all
+// stretches level by level, so that conflicts are found early. On each level, the filter looks for
+// conflicts with all counterparts before anything is proven free.
+std::optional<LineChecker::Found> LineChecker::search(const Eigen::VectorXd& from,
+                                                      const Eigen::VectorXd& to) {
+  double distance = cut(from, to);
+  for (Counterpart& each : counterparts_) each.open = level_;
   int looked_at = 0;
   for (bool any = true; any; distance *= 0.5) {
     any = false;
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-      const std::vector<int> nodes = std::exchange(open_[c], {});
-      for (std::size_t done = 0; done < nodes.size(); done += filter::kLanes) {
-        const std::size_t count = std::min<std::size_t>(filter::kLanes, nodes.size() - done);
-        TubePair::Nodes batch[filter::kLanes];
-        for (std::size_t i = 0; i < count; ++i) {
-          batch[i] = nodes_of(pairs[c], tube, nodes[done + i]);
-        }
-        pairs[c].filter({batch, count});
-        evaluations_ += count;
-        looked_at += static_cast<int>(count);
-        for (std::size_t i = 0; i < count; ++i) {
-          const int node = nodes[done + i];
-          const Stretch stretch = look(pairs[c], batch[i], pairs[c].undecided(i));
-          if (stretch == Stretch::free) continue;
-          const bool proven = stretch == Stretch::conflict;
-          if (proven || distance <= kFinest || looked_at > kStretchesMax) {
-            return Found{c, node, proven};
-          }
-          open_[c].push_back(tube->first_child(node));
-          open_[c].push_back(open_[c].back() + 1);
-          any = true;
-        }
+    looks_.clear();
+    undecided_.clear();
+    for (std::size_t c = 0; c < counterparts_.size(); ++c) {
+      for (std::span<const int> left = counterparts_[c].open; !left.empty();) {
+        const auto batch = left.first(std::min<std::size_t>(filter::kLanes, left.size()));
+        if (auto found = filter(c, batch, distance <= kFinest)) return found;
+        looked_at += static_cast<int>(batch.size());
+        left = left.subspan(batch.size());
       }
+      counterparts_[c].open.clear();
+    }
+    for (const Look& at : looks_) {
+      const Stretch stretch = look(at);
+      if (stretch == Stretch::free) continue;
+      const bool proven = stretch == Stretch::conflict;
+      if (proven || distance <= kFinest || looked_at > kStretchesMax) {
+        return Found{at.counterpart, at.node, proven};
+      }
+      std::vector<int>& open = counterparts_[at.counterpart].open;
+      open.push_back(line_->first_child(at.node));
+      open.push_back(open.back() + 1);
+      any = true;
     }
   }
   return std::nullopt;
 }
 
 void LineChecker::let_part_from(const Eigen::VectorXd& from) {
-  const auto tube = tube_along(from, from);
+  (void)cut(from, from);
   for (Counterpart& other : counterparts_) {
-    if (other.tube == nullptr || !other.tube->kinematics().arm()) continue;
-    let_part(other.pairs, pair_with(other, tube).near_at(Duration{}, Duration{}));
+    const bool is_first = other.tubes.a() == line_;
+    const auto& tube = is_first ? other.tubes.b() : other.tubes.a();
+    if (tube == line_ || !tube->kinematics().arm()) continue;
+    let_part(*other.pairs, other.tubes.near_at(Duration{}, Duration{}));
   }
 }
 
 bool LineChecker::is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-  return !search(tube_along(from, to), (to - from).lpNorm<Eigen::Infinity>());
+  return !search(from, to);
 }
 
 LineChecker::Answer LineChecker::line(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-  const auto tube = tube_along(from, to);
-  const auto found = search(tube, (to - from).lpNorm<Eigen::Infinity>());
+  const auto found = search(from, to);
   if (!found) return {};
-  TubePair pair = pair_with(counterparts_[found->counterpart], tube);
-  const auto [worst, moves_m] = worst_of(pair, tube, *found);
+  const auto [worst, moves_m] = worst_of(*found);
   const BodyPair& bodies = scene_->bodies().pairs[worst.pair.index()];
   Answer answer{found->proven ? Kind::conflict : Kind::undecided,
-                to_seconds(tube->middle(found->node)) / to_seconds(kLength),
+                share_of(line_->middle(found->node), line_->duration()),
                 proximity_of(scene_->bodies().bodies[bodies.a], scene_->bodies().bodies[bodies.b],
                              worst.distance_m),
                 moves_m};
@@ -190,9 +212,9 @@ double LineChecker::limit_m(PairId pair) const {
   return scene_->bodies().group_of(pair).limit_m(PairLimits::of(scene_->cell()));
 }
 
-LineChecker::Worst LineChecker::worst_of(TubePair& pair, const std::shared_ptr<MotionTube>& tube,
-                                         const Found& found) const {
-  const Duration at = tube->middle(found.node);
+LineChecker::Worst LineChecker::worst_of(const Found& found) {
+  TubePair& pair = counterparts_[found.counterpart].tubes;
+  const Duration at = line_->middle(found.node);
   const auto close = pair.too_close_at(at, at);
   const auto missing = [&](const TubePair::PairDistance& c) {
     return c.distance_m - limit_m(c.pair);
@@ -200,13 +222,13 @@ LineChecker::Worst LineChecker::worst_of(TubePair& pair, const std::shared_ptr<M
   if (!close.empty()) return {*std::ranges::min_element(close, {}, missing), 0.0};
   // No pair is too close at the middle. Find the pair that is not far enough apart for its motion
   // within the stretch.
-  const TubePair::Nodes nodes = nodes_of(pair, tube, found.node);
+  const TubePair::Nodes nodes = nodes_of(pair, found.node);
   pair.filter({&nodes, 1});
   std::optional<Worst> worst;
   double least = 0.0;
-  const std::vector<TubePair::Undecided> undecided = pair.undecided(0);
-  for (const TubePair::Undecided& u : undecided) {
-    const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
+  const std::vector<Undecided> undecided = pair.undecided(0);
+  for (const Undecided& u : undecided) {
+    const NarrowPair narrow = pair.narrow(u.narrow, u.box);
     const double enough_m = u.limit_m + u.moves_m();
     const double distance_m = pair.distance(narrow, nodes, enough_m);
     if (distance_m - enough_m >= least) continue;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/collision/diagram/motion_tube.h"
@@ -62,42 +63,55 @@ class LineChecker {
   inline static constexpr double kFinest = 1e-3;
 
  private:
+  // What the arm is compared with: another arm, the static bodies, or itself.
   struct Counterpart {
-    PairSet pairs;
-    std::shared_ptr<MotionTube> tube;  // null for the arm itself
+    std::unique_ptr<PairSet> pairs;
+    TubePair tubes;
+    std::vector<int> open;  // nodes of the line still to check
   };
   struct Found {
     std::size_t counterpart;
     int node;
     bool proven;
   };
-  enum class Stretch { free, open, conflict };
-  [[nodiscard]] std::shared_ptr<MotionTube> tube_along(const Eigen::VectorXd& from,
-                                                       const Eigen::VectorXd& to) const;
-  [[nodiscard]] TubePair pair_with(const Counterpart& other,
-                                   const std::shared_ptr<MotionTube>& tube) const;
-  [[nodiscard]] std::optional<Found> search(const std::shared_ptr<MotionTube>& tube,
-                                            double distance);
+  // A stretch that the filter leaves undecided. begin, end: range in undecided_.
+  struct Look {
+    std::size_t counterpart;
+    int node;
+    std::size_t begin, end;
+  };
+  // A pair whose capsules overlap by -over_m more than the limit allows.
+  struct Deep {
+    double over_m;
+    std::size_t of_batch;
+    TubePair::Undecided u;
+  };
   // The pair whose distance is farthest below the required distance, and how far the pair may move.
   struct Worst {
     TubePair::PairDistance pair;
     double moves_m;
   };
-  [[nodiscard]] Worst worst_of(TubePair& pair, const std::shared_ptr<MotionTube>& tube,
-                               const Found& found) const;
+  enum class Stretch { free, open, conflict };
+  void add(PairSet pairs, std::shared_ptr<MotionTube> a, std::shared_ptr<MotionTube> b);
+  double cut(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
+  [[nodiscard]] TubePair::Nodes nodes_of(const TubePair& pair, int node) const;
+  [[nodiscard]] std::optional<Found> search(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
+  [[nodiscard]] std::optional<Found> filter(std::size_t counterpart, std::span<const int> nodes,
+                                            bool finest);
+  [[nodiscard]] Stretch look(const Look& at);
+  [[nodiscard]] Worst worst_of(const Found& found);
   [[nodiscard]] double limit_m(PairId pair) const;
-  [[nodiscard]] Stretch look(TubePair& pair, TubePair::Nodes at,
-                             std::vector<TubePair::Undecided>& undecided) const;
 
   PlanningScenePtr scene_;
   ArmId arm_;
-  Configuration rest_;
-  double tracking_error_;  // of the arm (rad, m)
-  std::shared_ptr<const ArmGeometry> geometry_;
-  std::shared_ptr<MotionTube::Scratch> tube_scratch_;
   std::shared_ptr<TubePair::Scratch> pair_scratch_;
+  std::shared_ptr<MotionTube> line_;
   std::vector<Counterpart> counterparts_;
-  std::vector<std::vector<int>> open_;  // by counterpart: nodes of the line still to check
+  // Scratch of search().
+  std::vector<int> level_, halves_;  // nodes of the line
+  std::vector<Look> looks_;
+  std::vector<TubePair::Undecided> undecided_;
+  std::vector<Deep> deep_;
   std::uint64_t evaluations_ = 0;
 };
 

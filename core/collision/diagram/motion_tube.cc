@@ -16,6 +16,10 @@ constexpr double kRounding = 1e-8;
 
 std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>(kLanes); }
 
+Eigen::Map<Eigen::Array<float, kLanes, 1>> lanes_of(std::vector<float>& rows, std::size_t row) {
+  return Eigen::Map<Eigen::Array<float, kLanes, 1>>(rows.data() + lane_size(row));
+}
+
 }  // namespace
 
 struct MotionTube::Scratch {
@@ -59,15 +63,10 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
       scratch_(scratch ? std::move(scratch) : make_scratch(*geometry_)) {
   const ArmKinematics& arm = geometry_->kinematics;
   rest_.reserve(arm.joints().size());
-  column_.reserve(arm.joints().size());
   for (const JointId joint : arm.joints()) {
     rest_.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
-    column_.push_back(-1);
-    if (!trajectory_) continue;
-    const auto& moved = trajectory_->joints();
-    const auto found = std::find(moved.begin(), moved.end(), joint);
-    if (found != moved.end()) column_.back() = static_cast<int>(found - moved.begin());
   }
+  find_columns(trajectory_ ? trajectory_->joints() : std::vector<JointId>{});
   shift_.assign(rest_.size(), 0.0);
   error_.assign(rest_.size(), tracking_error);
 }
@@ -91,6 +90,31 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach&
   }
 }
 
+void MotionTube::find_columns(const std::vector<JointId>& moved) {
+  column_.clear();
+  for (const JointId joint : kinematics().joints()) {
+    const auto found = std::find(moved.begin(), moved.end(), joint);
+    column_.push_back(found == moved.end() ? -1 : static_cast<int>(found - moved.begin()));
+  }
+}
+
+void MotionTube::move_along(const std::vector<JointId>& joints, const Eigen::VectorXd& from,
+                            const Eigen::VectorXd& to, Duration duration) {
+  if (trajectory_ || line_from_.size() != from.size()) find_columns(joints);
+  trajectory_ = nullptr;
+  begin_ = Duration{};
+  line_from_ = from;
+  if (duration > Duration{}) {
+    line_velocity_ = (to - from) / to_seconds(duration);
+  } else {
+    line_velocity_.setZero(from.size());
+  }
+  restart(duration);
+  placements_.clear();
+  self_hits_.clear();
+  used_ = 0;
+}
+
 std::size_t MotionTube::bytes() const {
   std::size_t bytes =
       size() * (sizeof(Placement) + sizeof(Duration) * 3) + self_hits_.capacity() * sizeof(SelfHit);
@@ -98,8 +122,8 @@ std::size_t MotionTube::bytes() const {
   if (blocks_.empty()) return bytes;
   const Block& block = *blocks_.front();  // all blocks have the same size
   std::size_t numbers = block.frames.size() * 2;
-  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.drifts,
-                          &block.looses, &block.sweeps}) {
+  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.spread,
+                          &block.drifts, &block.looses, &block.sweeps}) {
     numbers += row->size();
   }
   return bytes + blocks_.size() * (sizeof(Block) + numbers * sizeof(float));
@@ -107,6 +131,9 @@ std::size_t MotionTube::bytes() const {
 
 void MotionTube::configuration(Duration time, double* q) {
   if (trajectory_) trajectory_->sample_positions(begin_ + time, scratch_->position);
+  if (line_from_.size() > 0) {
+    scratch_->position = line_from_ + to_seconds(time) * line_velocity_;
+  }
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     q[row] = column_[row] < 0 ? rest_[row] : scratch_->position[column_[row]] + shift_[row];
   }
@@ -139,6 +166,28 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
+// Fills all lanes for nodes of a straight line, which have the same width and so the same bounds.
+void MotionTube::fill_lanes_of_line(std::span<const int> nodes) {
+  Scratch& s = *scratch_;
+  const double half_s = 0.5 * to_seconds(width(nodes.front())) + 1e-9;
+  Eigen::Array<double, kLanes, 1> time_s;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    time_s[static_cast<Eigen::Index>(lane)] =
+        to_seconds(middle(nodes[std::min(lane, nodes.size() - 1)]));
+  }
+  for (std::size_t row = 0; row < rest_.size(); ++row) {
+    const int column = column_[row];
+    const double velocity = column < 0 ? 0.0 : line_velocity_[column];
+    const double from = column < 0 ? rest_[row] : line_from_[column];
+    const double drift = velocity * half_s;
+    const double loose = error_[row] + (column < 0 ? 0.0 : kRounding + 1e-6 * std::abs(drift));
+    Eigen::Map<Eigen::Array<double, kLanes, 1>>(&s.q[lane_size(row)]) = from + velocity * time_s;
+    lanes_of(s.joints.span, row) = round_up(std::abs(drift) + loose);
+    lanes_of(s.joints.drift, row) = static_cast<float>(drift);
+    lanes_of(s.joints.loose, row) = round_up(loose);
+  }
+}
+
 // Fills a lane with the configuration at the middle of the interval. Also fills in bounds of the
 // joints' deviation from this configuration, and from a line through it in joint space.
 void MotionTube::fill_lane(int node, int lane) {
@@ -165,9 +214,7 @@ void MotionTube::fill_lane(int node, int lane) {
   }
 }
 
-void MotionTube::place_batch(std::span<const int> nodes) {
-  const ArmKinematics& arm = geometry_->kinematics;
-  const filter::Kernel& kernel = filter::best_kernel();
+void MotionTube::fill_lanes(std::span<const int> nodes) {
   Scratch& s = *scratch_;
   for (int lane = 0; lane < kLanes; ++lane) {
     const auto i = std::min(static_cast<std::size_t>(lane), nodes.size() - 1);
@@ -184,24 +231,34 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       }
     }
   }
+}
+
+void MotionTube::place_batch(std::span<const int> nodes) {
+  const ArmKinematics& arm = geometry_->kinematics;
+  const filter::Kernel& kernel = filter::best_kernel();
+  Scratch& s = *scratch_;
+  if (line_from_.size() > 0) {
+    fill_lanes_of_line(nodes);
+  } else {
+    fill_lanes(nodes);
+  }
   for (std::size_t f = 0; f < arm.frames().size(); ++f) {
     const filter::Frame& frame = arm.frames()[f];
     const float scale = round_up(std::abs(frame.multiplier));
     const auto factor = static_cast<float>(frame.multiplier);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      const std::size_t joint = lane_size(static_cast<std::size_t>(frame.joint)) + l;
-      s.frames.span[lane_size(f) + l] = scale * s.joints.span[joint] * 1.000001F;
-      s.frames.drift[lane_size(f) + l] = factor * s.joints.drift[joint];
-      s.frames.loose[lane_size(f) + l] = scale * s.joints.loose[joint] * 1.000001F;
-    }
+    const auto row = static_cast<std::size_t>(frame.joint);
+    lanes_of(s.frames.span, f) = scale * lanes_of(s.joints.span, row) * 1.000001F;
+    lanes_of(s.frames.drift, f) = factor * lanes_of(s.joints.drift, row);
+    lanes_of(s.frames.loose, f) = scale * lanes_of(s.joints.loose, row) * 1.000001F;
   }
   const std::size_t capsules = arm.capsules().size();
-  blocks_.push_back(std::make_unique<Block>());
-  Block& block = *blocks_.back();
+  if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<Block>());
+  Block& block = *blocks_[used_++];
   block.capsules.resize(lane_size(capsules * 6));
   block.motion_bound.resize(lane_size(capsules));
   block.ball.resize(lane_size(4));
+  const int spread = filter::spread_size(static_cast<int>(capsules));
+  block.spread.resize(static_cast<std::size_t>(4 * spread));
   block.frames.resize(lane_size(arm.frames().size() * 12));
   block.drifts = s.frames.drift;
   block.looses = s.frames.loose;
@@ -217,14 +274,17 @@ void MotionTube::place_batch(std::span<const int> nodes) {
                 block.motion_bound.data() + lane_size(c));
   }
   kernel.enclose(arm.view(), block.capsules.data(), block.motion_bound.data(),
-                 s.capsule_rows.data(), block.ball.data());
-  const filter::Side side{block.capsules.data(), s.motion_bounds.data(), nullptr};
+                 s.capsule_rows.data(), block.ball.data(), block.spread.data());
+  const filter::Side side{.capsules = block.capsules.data(),
+                          .motion_bound = s.motion_bounds.data(),
+                          .ball = nullptr,
+                          .sweeps = block.sweeps.data()};
   const unsigned lanes = (1U << nodes.size()) - 1U;
   const int found =
       kernel.near_pairs(side, side, geometry_->self.ungrouped(), lanes, s.hits.data());
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
-    node.block = blocks_.size() - 1;
+    node.block = used_ - 1;
     node.lane = lane;
     node.self_begin = self_hits_.size();
     for (int h = 0; h < found; ++h) {

@@ -40,12 +40,18 @@ class MotionTube : public TimeTree {
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, const Reach& reach,
              std::shared_ptr<Scratch> scratch);
 
+  // Replaces the motion by a straight line in joint space of `duration`, or by a rest at `from` if
+  // duration is zero. Forgets all nodes, but keeps their memory for the next ones. `joints`: those
+  // of `from` and `to`, in their order.
+  void move_along(const std::vector<JointId>& joints, const Eigen::VectorXd& from,
+                  const Eigen::VectorXd& to, Duration duration);
+
   [[nodiscard]] const ArmKinematics& kinematics() const { return geometry_->kinematics; }
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
   // Places the nodes that are not placed yet, eight at once. Required before place_of(), axes_of()
-  // and self_hits().
+  // and self_hits(). Along a line (move_along), the nodes must be of one level of the tree.
   void place(std::span<const int> nodes);
   // Returns the memory used, including the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
@@ -57,6 +63,7 @@ class MotionTube : public TimeTree {
     std::vector<float> capsules;      // [capsule][6][kLanes]
     std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
     std::vector<float> ball;          // [4][kLanes], filter::Side::ball
+    std::vector<float> spread;        // filter::Spread::balls
     std::vector<double> frames;       // [frame][12][kLanes]
     std::vector<float> drifts;        // filter::JointMotions::drift
     std::vector<float> looses;        // filter::JointMotions::loose
@@ -115,16 +122,21 @@ class MotionTube : public TimeTree {
   void place_batch(std::span<const int> nodes);
   void collect_stretches(int node, std::vector<int>& stretches);
   void fill_lane(int node, int lane);
+  void find_columns(const std::vector<JointId>& moved);
+  void fill_lanes(std::span<const int> nodes);
+  void fill_lanes_of_line(std::span<const int> nodes);
 
   std::shared_ptr<const ArmGeometry> geometry_;
   TrajectoryPtr trajectory_;
-  std::vector<int> column_;    // by row: index in the trajectory's joints, or -1
+  Eigen::VectorXd line_from_, line_velocity_;  // empty unless moving along a line
+  std::vector<int> column_;    // by row: index in the joints of the trajectory or line, or -1
   std::vector<double> rest_;   // by row
   Duration begin_{};           // trajectory time at which the tube begins
   std::vector<double> shift_;  // by row, of joints on the motion
   std::vector<double> error_;  // by row: largest deviation of the joint
   std::vector<Placement> placements_;
   std::vector<std::unique_ptr<Block>> blocks_;
+  std::size_t used_ = 0;  // number of blocks in use
   std::vector<SelfHit> self_hits_;
 
   std::shared_ptr<Scratch> scratch_;

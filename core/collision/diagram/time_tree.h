@@ -12,6 +12,8 @@ class TimeTree {
  public:
   explicit TimeTree(Duration duration = {}) : nodes_{{Duration{}, duration}} {}
 
+  // Forgets all nodes but the root, which becomes this long.
+  void restart(Duration duration) { nodes_.assign(1, {Duration{}, duration}); }
   [[nodiscard]] Duration duration() const { return nodes_.front().to; }
   // The root is the whole motion. The children of a node n are its two halves: first_child(n) and
   // the next node.

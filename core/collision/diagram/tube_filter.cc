@@ -28,6 +28,10 @@ struct TubePair::Batch {
     for (std::size_t lane = 0; lane < count; ++lane) of[lane] = tube.place_of(nodes[lane]);
     side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
             rows(&Block::ball, to.ball)};
+    if (const Block* block = as_block()) {
+      side.spread = {block->spread.data(), static_cast<int>(block->spread.size() / 4)};
+      side.sweeps = block->sweeps.data();
+    }
   }
   // If lane i of the batch is lane i of one block of the tube, returns that block, else null. A
   // tube with a single node (an arm at rest) has this node in every lane of its block.

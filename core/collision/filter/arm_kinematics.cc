@@ -1,8 +1,9 @@
 #include "core/collision/filter/arm_kinematics.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
 #include "core/collision/scene/arm_reach.h"
 #include "core/collision/scene/scene_bodies.h"
@@ -28,9 +29,10 @@ double without_dust(double x) {
 
 float round_up(double x) {
   const auto rounded = static_cast<float>(x);
-  return static_cast<double>(rounded) >= x
-             ? rounded
-             : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  if (static_cast<double>(rounded) >= x) return rounded;
+  // std::nextafter(rounded, infinity), which is slow.
+  const auto bits = std::bit_cast<std::uint32_t>(rounded);
+  return std::bit_cast<float>(rounded < 0.0F ? bits - 1 : (bits & 0x7FFFFFFFU) + 1);
 }
 
 ArmKinematics::ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)

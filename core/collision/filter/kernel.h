@@ -76,11 +76,22 @@ struct MotionBounds {
 // the other end, and the largest length of the additional vector.
 inline constexpr int kSweep = 7;
 
+// For each capsule, a ball around it in all lanes, motion included: [4][size], center and radius.
+// Lanes that are similar (of one state, or along a line) are far from most static bodies at once.
+// `size` is a multiple of kLanes. If `balls` is null, every capsule may be anywhere.
+struct Spread {
+  const float* balls;
+  int size;
+};
+constexpr int spread_size(int capsules) { return (capsules + kLanes - 1) / kLanes * kLanes; }
+
 // One side of a comparison: capsules with known motion bounds.
 struct Side {
   const float* capsules;      // Placed::capsules
   const float* motion_bound;  // [row][kLanes], m; null for both sides if nothing moves
   const float* ball;  // [4][kLanes], from Kernel::enclose: center, radius; for groups and boxes
+  Spread spread = {nullptr, 0};
+  const float* sweeps = nullptr;  // MotionBounds::sweeps: makes moving sides rarer to be near
 };
 
 // A capsule in one configuration, and its sweeps in consecutive stretches of a motion. Each stretch
@@ -143,6 +154,7 @@ struct BoxedCapsule {
   int capsule;
   int row;
   float radius_up;
+  float ball_up;  // Capsule::ball_up
 };
 // A static box, and the capsules that are compared with it.
 struct StaticBox {
@@ -185,12 +197,12 @@ struct Kernel {
   //   along any direction (sweep.h: loose parts and the second sum).
   void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
                   const MotionBounds& out);
-  // Writes a ball around all capsules of a side, motion included. rows[c] is the row of capsule c
-  // in `motion_bound`, which is null if nothing moves.
+  // Writes Side::ball, a ball around all capsules of a side, and Spread::balls. Motion is included.
+  // rows[c] is the row of capsule c in `motion_bound`, which is null if nothing moves.
   void (*enclose)(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
-                  const int* rows, float* ball);
+                  const int* rows, float* ball, float* spread);
   // Writes the pairs that are undecided in any of `lanes`; returns their number. `hits` must have
-  // room for all pairs.
+  // room for all pairs. A pair is also decided if its sweeps prove it apart.
   int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
   // Bounds the distance of two swept capsules, for each stretch of `a` with each stretch of `b`.
   Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair);
@@ -200,7 +212,9 @@ struct Kernel {
 
 extern const Kernel kScalarKernel;  // one lane after the other; the reference for the other kernels
 extern const Kernel kBaselineKernel;  // SSE2, which every x86-64 has
+// Only if the processor has them (kernels.h), and unless compiled with ARMLOOM_SIMD=off.
 extern const Kernel kAvx2Kernel;
+extern const Kernel kAvx512Kernel;
 
 // Returns the rounding margin of near_pairs and near_boxes (m) if no coordinate exceeds `extent_m`.
 // The margin is part of Pair::radii_up. StaticBox::margin_up has one rounding more, of its sum with

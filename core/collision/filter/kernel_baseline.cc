@@ -1,7 +1,7 @@
 // Kernel for SSE2, which every x86-64 has: two doubles or four floats at once.
 #include <immintrin.h>
 
-#include "core/collision/filter/kernel_pairs.h"
+#include "core/collision/filter/kernel_boxes.h"
 
 namespace armloom::filter {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
-// Source that all kernels share, part 1: places capsules and bounds their motion. Part 2 is
-// kernel_pairs.h. Each instruction set's file includes this header once and passes its vector types
-// D (doubles) and F (floats). The unnamed namespace prevents the linker from using code of one
-// instruction set in another. Operations of the vector types:
+// Source that all kernels share, part 1: places capsules and bounds their motion. Parts 2
+// and 3 are kernel_pairs.h and kernel_boxes.h. Each instruction set's file includes this header
+// once and passes its vector types D (doubles) and F (floats). The unnamed namespace prevents the
+// linker from using code of one instruction set in another. Operations of the vector types:
 // - D, F: kLanes, load(p), store(p), all(x), +, -, *
 // - F also: max(a, b), min(a, b), sqrt, abs, /, not_at_least(a, b) (bits by lane of !(a >= b))
 // - D also: round, select(odd, a, b), store_float(p)

@@ -1,7 +1,7 @@
 #pragma once
 
 // Source that all kernels share, part 2: finds the pairs that may be too close. Part 1 is
-// kernel_lanes.h.
+// kernel_lanes.h, part 3 kernel_boxes.h.
 
 #include "core/collision/filter/kernel_lanes.h"
 
@@ -27,18 +27,8 @@ inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, 
   return {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y, w.z + s * ha.z - t * hb.z};
 }
 
-// Returns a lower bound of the distance of the axes: the gap between two planes, normal to the
-// direction between their nearest points. If these points are inexact, the bound is only lower.
 template <class F>
-inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
-  const Vec<F> v = between_axes(w, ha, hb, pair);
-  const F length = F::sqrt(dot(v, v));
-  const F gap = dot(v, w) - F::abs(dot(v, ha)) - F::abs(dot(v, hb));
-  return gap / F::max(length, F::all(1e-20F));
-}
-
-template <class F>
-inline Vec<F> spread(const float* at) {
+inline Vec<F> same(const float* at) {
   return {F::all(at[0]), F::all(at[kLanes]), F::all(at[2 * kLanes])};
 }
 
@@ -46,7 +36,7 @@ inline Vec<F> spread(const float* at) {
 // its stretches.
 template <class F>
 inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
-  const Vec<F> center = spread<F>(of.at);
+  const Vec<F> center = same<F>(of.at);
   float reach[kLanes];
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const F along = dot(d, Vec<F>::load(of.capsules + 3 * kLanes + l));
@@ -60,13 +50,14 @@ inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   return most;
 }
 
-// The margin of 3e-6 m covers the rounding in axis_gap(), and that of the direction and the
-// centers.
+// Covers the rounding of bounds along a direction, and that of the direction and the centers.
+constexpr float kSweptMargin_m = 3e-6F;
+
 template <class F>
 Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
-  const Vec<F> w = minus(spread<F>(a.at), spread<F>(b.at));
-  const Vec<F> half_a = spread<F>(a.at + 3 * kLanes);
-  const Vec<F> half_b = spread<F>(b.at + 3 * kLanes);
+  const Vec<F> w = minus(same<F>(a.at), same<F>(b.at));
+  const Vec<F> half_a = same<F>(a.at + 3 * kLanes);
+  const Vec<F> half_b = same<F>(b.at + 3 * kLanes);
   const Vec<F> v = between_axes(w, half_a, half_b, pair);
   const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
   const Vec<F> d = {v.x / length, v.y / length, v.z / length};
@@ -78,17 +69,50 @@ Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
   F::abs(dot(d, half_b)).store(own + 2 * kLanes);
   const float of_a = reach_along(a, back);
   const float of_b = reach_along(b, d);
-  return {own[0] - of_a - of_b - pair.radii_up - 3e-6F,
+  return {own[0] - of_a - of_b - pair.radii_up - kSweptMargin_m,
           {of_a - own[kLanes], of_b - own[2 * kLanes]}};
+}
+
+// Writes the capsule's ball around all lanes (Spread). The center lies between the first and the
+// last lane. far: [kLanes], distance of the capsule from there in each lane.
+template <class F>
+inline void spread_capsule(const float* capsule, float ball_up, const float* motion_bound,
+                           float* ball, int size) {
+  float center[3];
+  for (int i = 0; i < 3; ++i) {
+    center[i] = 0.5F * (capsule[i * kLanes] + capsule[i * kLanes + kLanes - 1]);
+  }
+  float far[kLanes];
+  for (int l = 0; l < kLanes; l += F::kLanes) {
+    const Vec<F> w = minus(Vec<F>::load(capsule + l),
+                           Vec<F>{F::all(center[0]), F::all(center[1]), F::all(center[2])});
+    F reach = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(ball_up);
+    if (motion_bound != nullptr) reach = reach + F::load(motion_bound + l);
+    reach.store(far + l);
+  }
+  float radius = far[0];
+  for (int l = 1; l < kLanes; ++l) radius = far[l] > radius ? far[l] : radius;
+  for (int i = 0; i < 3; ++i) ball[i * size] = center[i];
+  ball[3 * size] = radius;
 }
 
 // The ball's center is the center of the bounding box of the capsules' centers.
 template <class F>
 void enclose(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
-             const int* rows, float* ball) {
+             const int* rows, float* ball, float* spread) {
   if (kinematics.capsule_count == 0) {  // an arm without shapes is never compared
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;
+  }
+  const int size = spread_size(kinematics.capsule_count);
+  for (int c = 0; c < size; ++c) {
+    if (c >= kinematics.capsule_count) {  // no capsule: far away
+      for (int i = 0; i < 4; ++i) spread[i * size + c] = i == 3 ? 0.0F : 1e9F;
+      continue;
+    }
+    spread_capsule<F>(capsules + c * 6 * kLanes, kinematics.capsules[c].ball_up,
+                      motion_bound == nullptr ? nullptr : motion_bound + rows[c] * kLanes,
+                      spread + c, size);
   }
   for (int l = 0; l < kLanes; l += F::kLanes) {
     Vec<F> low = Vec<F>::load(capsules + l);
@@ -113,6 +137,40 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
     center.z.store(ball + 2 * kLanes + l);
     radius.store(ball + 3 * kLanes + l);
   }
+}
+
+// The capsules of a side that may be near something, as bits. Capsules from the 65th on always may.
+struct NearCapsules {
+  unsigned long long bits = ~0ULL;
+  [[nodiscard]] bool has(int capsule) const { return capsule >= 64 || (bits >> capsule & 1U) != 0; }
+};
+// Returns the capsules whose balls (Spread) are within reach_up of the point, in any lane.
+template <class F>
+inline NearCapsules near_capsules(const Spread& spread, const float* x, const float* y,
+                                  const float* z, float reach_up) {
+  NearCapsules near;
+  if (spread.balls == nullptr) return near;
+  const int size = spread.size < 64 ? spread.size : 64;
+  near.bits = 0;
+  for (int c = 0; c < size; c += F::kLanes) {
+    const float* ball = spread.balls + c;
+    const Vec<F> w = {F::load(ball) - F::all(*x), F::load(ball + spread.size) - F::all(*y),
+                      F::load(ball + 2 * spread.size) - F::all(*z)};
+    const F reach = (F::load(ball + 3 * spread.size) + F::all(reach_up)) * F::all(1.00001F);
+    near.bits |= static_cast<unsigned long long>(F::not_at_least(dot(w, w), reach * reach)) << c;
+  }
+  if (spread.size > 64) near.bits |= 1ULL << 63;  // so that the bits are not zero
+  return near;
+}
+
+// Returns how far the capsule of each lane reaches along d beyond its center, at most, as its axis
+// moves. `along`: d . half axis.
+template <class F>
+inline F swept_reach(const Side& side, int capsule, const Vec<F>& d, F along, int l) {
+  const float* sweep = side.sweeps + capsule * kSweep * kLanes + l;
+  const F ahead = F::abs(dot(d, Vec<F>::load(sweep))) + along;
+  const F behind = F::abs(dot(d, Vec<F>::load(sweep + 3 * kLanes))) - along;
+  return F::max(ahead, behind) + F::load(sweep + 6 * kLanes);
 }
 
 // Returns the lanes in which the pair is undecided. Fills `hit` for these lanes.
@@ -140,8 +198,24 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
     const F ball = keep + F::all(pair.end_b_up);
     if (F::not_at_least(dot(v, v), ball * ball) == 0) continue;
     const Vec<F> hb = Vec<F>::load(at_b + 3 * kLanes + l);
-    const F gap = axis_gap(w, ha, hb, pair);
-    near |= F::not_at_least(gap, keep) << l;
+    // A lower bound of the distance of the axes: the gap between two planes, normal to the
+    // direction between their nearest points. If these points are inexact, the bound is only lower.
+    const Vec<F> between = between_axes(w, ha, hb, pair);
+    const F length = F::max(F::sqrt(dot(between, between)), F::all(1e-20F));
+    const F along_a = dot(between, ha);
+    const F along_b = dot(between, hb);
+    const F gap = (dot(between, w) - F::abs(along_a) - F::abs(along_b)) / length;
+    unsigned close = F::not_at_least(gap, keep);
+    if constexpr (kMoving) {
+      if (close != 0 && a.sweeps != nullptr && b.sweeps != nullptr) {
+        const Vec<F> d = {between.x / length, between.y / length, between.z / length};
+        const Vec<F> back = {F::all(0.0F) - d.x, F::all(0.0F) - d.y, F::all(0.0F) - d.z};
+        const F apart = dot(d, w) - swept_reach(a, pair.a, back, dot(back, ha), l) -
+                        swept_reach(b, pair.b, d, dot(d, hb), l);
+        close &= F::not_at_least(apart, F::all(pair.limit_up + pair.radii_up + kSweptMargin_m));
+      }
+    }
+    near |= close << l;
     (gap - F::all(pair.radii_up)).store(hit.distance + l);
     motion_bound.store(hit.motion_bound + l);
   }
@@ -183,8 +257,9 @@ int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes,
   const Groups& groups = of.groups;
   int found = 0;
   unsigned long long of_b = ~0ULL;  // capsules of b to compare
-  const auto look = [&](int begin, int end) {
+  const auto look = [&](int begin, int end, NearCapsules of_a = {}) {
     for (int p = begin; p < end; ++p) {
+      if (!of_a.has(pairs[p].a)) continue;
       if (groups.other_count > 0 && (of_b >> pairs[p].b & 1U) == 0) continue;
       Hit& hit = hits[found];
       hit.pair = p;
@@ -206,7 +281,14 @@ int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes,
     const Group& group = groups.all[g];
     const bool near =
         groups.of_b ? near_ball<F, kMoving>(b, a, group) : near_ball<F, kMoving>(a, b, group);
-    if (near) look(group.begin, group.end);
+    if (!near) continue;
+    NearCapsules of_a;
+    if (groups.of_b) {
+      const float* at = b.capsules + group.capsule * 6 * kLanes;
+      of_a = near_capsules<F>(a.spread, at, at + kLanes, at + 2 * kLanes,
+                              group.limit_up + group.size_up);
+    }
+    look(group.begin, group.end, of_a);
   }
   return found;
 }
@@ -217,67 +299,6 @@ int near_pairs(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes,
     return near_pairs_of<F, false>(a, b, pairs, lanes, hits);
   }
   return near_pairs_of<F, true>(a, b, pairs, lanes, hits);
-}
-
-// Returns true if the box may be too close to the ball around a side.
-template <class F>
-inline bool near_ball(const Side& side, const StaticBox& box) {
-  if (side.ball == nullptr) return true;
-  unsigned near = 0;
-  for (int l = 0; l < kLanes; l += F::kLanes) {
-    const Vec<F> w = {F::load(side.ball + l) - F::all(box.center[0]),
-                      F::load(side.ball + kLanes + l) - F::all(box.center[1]),
-                      F::load(side.ball + 2 * kLanes + l) - F::all(box.center[2])};
-    const F reach = (F::load(side.ball + 3 * kLanes + l) + F::all(box.ball_up + box.limit_up)) *
-                    F::all(1.00001F);
-    near |= F::not_at_least(dot(w, w), reach * reach);
-  }
-  return near != 0;
-}
-
-// Compares a capsule with a box by the largest gap along the box's axes. This gap is a lower bound
-// of the distance; in front of a face, it is exact.
-template <class F>
-inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const StaticBox& box,
-                         Hit& hit) {
-  const float* at = a.capsules + capsule.capsule * 6 * kLanes;
-  unsigned near = 0;
-  for (int l = 0; l < kLanes; l += F::kLanes) {
-    Vec<F> w = Vec<F>::load(at + l);
-    w = {w.x - F::all(box.center[0]), w.y - F::all(box.center[1]), w.z - F::all(box.center[2])};
-    const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
-    F gap = F::all(-1e9F);
-    for (int i = 0; i < 3; ++i) {
-      const Vec<F> axis = {F::all(box.R[3 * i]), F::all(box.R[3 * i + 1]),
-                           F::all(box.R[3 * i + 2])};
-      gap = F::max(gap, F::abs(dot(axis, w)) - F::abs(dot(axis, half)) - F::all(box.half_up[i]));
-    }
-    const F motion_bound = a.motion_bound == nullptr
-                               ? F::all(0.0F)
-                               : F::load(a.motion_bound + capsule.row * kLanes + l);
-    const F distance = gap - F::all(capsule.radius_up + box.margin_up);
-    near |= F::not_at_least(distance, F::all(box.limit_up) + motion_bound) << l;
-    distance.store(hit.distance + l);
-    motion_bound.store(hit.motion_bound + l);
-  }
-  return near;
-}
-
-template <class F>
-int near_boxes(const Side& a, const Boxes& boxes, unsigned lanes, Hit* hits) {
-  int found = 0;
-  for (int b = 0; b < boxes.count; ++b) {
-    const StaticBox& box = boxes.all[b];
-    if (!near_ball<F>(a, box)) continue;
-    for (int c = box.begin; c < box.end; ++c) {
-      Hit& hit = hits[found];
-      hit.pair = b;
-      hit.capsule = c;
-      hit.lanes = near_box<F>(a, boxes.capsules[c], box, hit) & lanes;
-      found += hit.lanes != 0 ? 1 : 0;
-    }
-  }
-  return found;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Kernel that processes one lane at a time: the reference for the vector kernels.
 #include <cmath>
 
-#include "core/collision/filter/kernel_pairs.h"
+#include "core/collision/filter/kernel_boxes.h"
 
 namespace armloom::filter {
 namespace {

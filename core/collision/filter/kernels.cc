@@ -7,7 +7,13 @@ namespace armloom::filter {
 
 std::vector<const Kernel*> kernels() {
   std::vector<const Kernel*> all{&kScalarKernel, &kBaselineKernel};
+#ifndef ARMLOOM_NO_SIMD
   if (__builtin_cpu_supports("avx2") != 0) all.push_back(&kAvx2Kernel);
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+      __builtin_cpu_supports("avx512vl") != 0) {
+    all.push_back(&kAvx512Kernel);
+  }
+#endif
   return all;
 }
 

@@ -62,7 +62,8 @@ constexpr PairId kNoPair{std::numeric_limits<std::uint32_t>::max()};
 void add_boxed(PairSet& set, const ArmKinematics& arm, std::size_t body) {
   const KinematicBody& own = arm.bodies()[body];
   for (int c = own.capsules_begin; c < own.capsules_end; ++c) {
-    set.boxed.push_back({c, c, arm.capsules()[static_cast<std::size_t>(c)].radius_up});
+    const filter::Capsule& capsule = arm.capsules()[static_cast<std::size_t>(c)];
+    set.boxed.push_back({c, c, capsule.radius_up, capsule.ball_up});
     set.body_of_boxed.push_back(static_cast<int>(body));
   }
 }

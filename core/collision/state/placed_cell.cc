@@ -5,22 +5,22 @@
 #include <utility>
 
 namespace armloom {
-namespace {}  // namespace
-
 PlacedCell::Side::Side(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
     : kinematics(bodies, arm),
       q(kinematics.joints().size() * kStatesAtOnce),
       frames(kinematics.frames().size() * 12 * kStatesAtOnce),
       axes(kinematics.frames().size() * 6 * kStatesAtOnce),
       capsules(kinematics.capsules().size() * 6 * kStatesAtOnce),
-      ball(4 * kStatesAtOnce) {
+      ball(4 * kStatesAtOnce),
+      spread(4 * static_cast<std::size_t>(
+                     filter::spread_size(static_cast<int>(kinematics.capsules().size())))) {
   if (!arm) place();
 }
 
 void PlacedCell::Side::place() {
   const filter::Kernel& kernel = filter::best_kernel();
   kernel.place(kinematics.view(), q.data(), {frames.data(), axes.data(), capsules.data()});
-  kernel.enclose(kinematics.view(), capsules.data(), nullptr, nullptr, ball.data());
+  kernel.enclose(kinematics.view(), capsules.data(), nullptr, nullptr, ball.data(), spread.data());
 }
 
 PlacedCell::PlacedCell(const PlanningScene::Bodies& bodies, const PairLimits& limits)

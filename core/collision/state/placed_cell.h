@@ -58,11 +58,16 @@ class PlacedCell {
   struct Side {  // an arm with eight placements, or the static bodies
     Side(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
     void place();
-    [[nodiscard]] filter::Side side() const { return {capsules.data(), nullptr, ball.data()}; }
+    [[nodiscard]] filter::Side side() const {
+      return {capsules.data(),
+              nullptr,
+              ball.data(),
+              {spread.data(), static_cast<int>(spread.size() / 4)}};
+    }
 
     ArmKinematics kinematics;
     std::vector<double> q, frames;
-    std::vector<float> axes, capsules, ball;
+    std::vector<float> axes, capsules, ball, spread;
   };
   void compare(std::size_t a, std::size_t b);
 
