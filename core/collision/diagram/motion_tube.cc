@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/collision/diagram/tube_scratch.h"
 #include "core/collision/filter/kernels.h"
 #include "core/trajectory/set_joints.h"
 
@@ -21,21 +22,6 @@ Eigen::Map<Eigen::Array<float, kLanes, 1>> lanes_of(std::vector<float>& rows, st
 }
 
 }  // namespace
-
-struct MotionTube::Scratch {
-  std::vector<double> q;
-  struct Motions {
-    std::vector<float> span, drift, loose;
-  };
-  Motions joints;  // [row][kLanes]
-  Motions frames;  // [frame][kLanes]
-  std::vector<float> motion_bounds, axes;
-  std::vector<int> capsule_rows;  // by capsule: row in Block::motion_bound
-  std::vector<filter::Hit> hits;
-  std::vector<int> stretches;
-  Eigen::VectorXd position;
-  Trajectory::AboutLine line;
-};
 
 std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
   const ArmKinematics& arm = geometry.kinematics;
@@ -237,11 +223,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
   const ArmKinematics& arm = geometry_->kinematics;
   const filter::Kernel& kernel = filter::best_kernel();
   Scratch& s = *scratch_;
-  if (line_from_.size() > 0) {
-    fill_lanes_of_line(nodes);
-  } else {
-    fill_lanes(nodes);
-  }
+  line_from_.size() > 0 ? fill_lanes_of_line(nodes) : fill_lanes(nodes);
   for (std::size_t f = 0; f < arm.frames().size(); ++f) {
     const filter::Frame& frame = arm.frames()[f];
     const float scale = round_up(std::abs(frame.multiplier));

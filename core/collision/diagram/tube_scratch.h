@@ -8,6 +8,22 @@
 
 namespace armloom {
 
+// The nodes of a tube that are being placed.
+struct MotionTube::Scratch {
+  std::vector<double> q;
+  struct Motions {
+    std::vector<float> span, drift, loose;
+  };
+  Motions joints;  // [row][kLanes]
+  Motions frames;  // [frame][kLanes]
+  std::vector<float> motion_bounds, axes;
+  std::vector<int> capsule_rows;  // by capsule: row in Block::motion_bound
+  std::vector<filter::Hit> hits;
+  std::vector<int> stretches;
+  Eigen::VectorXd position;
+  Trajectory::AboutLine line;
+};
+
 // Copies of nodes from different blocks, one per lane.
 struct TubePair::Gathered {
   std::vector<float> capsules, motion_bound, ball;  // MotionTube::Block
