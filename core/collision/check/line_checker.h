@@ -63,7 +63,7 @@ class LineChecker {
   inline static constexpr double kFinest = 1e-3;
 
  private:
-  // What the arm is compared with: another arm, the static bodies, or itself.
+  // The opposite side of a comparison: another arm, the static bodies, or the arm itself.
   struct Counterpart {
     std::unique_ptr<PairSet> pairs;
     TubePair tubes;
