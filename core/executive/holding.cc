@@ -60,6 +60,11 @@ void Touch::add(const Touch& more) {
   add_to(objects, more.objects);
 }
 
+Problem no_object(const std::string& name) {
+  return Problem{ProblemKind::not_found, "unknown-object", "",
+                 "no object is named \"" + name + "\": GET /scene lists the objects", name};
+}
+
 std::optional<LinkId> carrier_of(const PlanningScene& scene, const std::string& object) {
   const auto held = std::ranges::find_if(scene.attachments(), carries(object));
   return held == scene.attachments().end() ? std::nullopt : std::optional(held->link);

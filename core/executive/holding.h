@@ -54,6 +54,8 @@ struct Touch {
 [[nodiscard]] PlanningScene::Content holding(const PlanningScene& scene, CollisionObject object,
                                              LinkId link);
 
+// Returns the problem that the scene has no such object ("unknown-object").
+[[nodiscard]] Problem no_object(const std::string& name);
 // Returns the link that carries the object; nullopt if none does.
 [[nodiscard]] std::optional<LinkId> carrier_of(const PlanningScene& scene,
                                                const std::string& object);

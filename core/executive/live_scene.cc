@@ -204,11 +204,6 @@ std::string place_of(const SceneEdit& edit, const std::string& name) {
 
 }  // namespace
 
-Problem no_object(const std::string& name) {
-  return Problem{ProblemKind::not_found, "unknown-object", "",
-                 "no object is named \"" + name + "\": GET /scene lists the objects", name};
-}
-
 PreparedEdit prepare(SceneEdit edit, const PlanningScenePtr& base) {
   if (auto* put = std::get_if<ObjectPut>(&edit)) {
     CollisionObject object = std::move(put->object);

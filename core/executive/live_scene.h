@@ -85,8 +85,6 @@ struct PreparedEdit {
   };
   Result<Made> made;
 };
-// Returns the problem that the scene has no such object ("unknown-object").
-[[nodiscard]] Problem no_object(const std::string& name);
 // Makes the scene: fits the shapes that `base` does not have, and lists all pairs. Costs
 // milliseconds, and about a microsecond for each object of the scene. Pure; on any thread. Problems
 // in `made`:
