@@ -75,7 +75,7 @@ void Executive::set_speed(std::optional<ArmId> arm, double share) {
 }
 Result<CollisionObject> Executive::detach(const std::string& object) {
   impl_->clock_.note({ExecutiveInput::ObjectDetached{object}});
-  return impl_->clients_.tasks.actions().detach(object);
+  return impl_->clients_.tasks.detach(object);
 }
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
   impl_->clock_.note({ExecutiveInput::WoundDown{cause, waiting}});

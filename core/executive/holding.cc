@@ -95,10 +95,11 @@ Result<Content> attached(const PlanningScene& scene, const Configuration& measur
   const double distance_m = from_hand(scene, X_WL, object, link);
   if (distance_m > kAttachWithin_m) {
     char text[160];
-    std::snprintf(text, sizeof text,
-                  " is %.0f mm or more from the hand of %s, at most %.0f mm are allowed: move the "
-                  "hand to the object before it is attached",
-                  1e3 * distance_m, cell.link(link).name.c_str(), 1e3 * kAttachWithin_m);
+    std::snprintf(
+        text, sizeof text,
+        " is %.0f mm or more from %s, at most %.0f mm are allowed: move the hand to the object "
+        "before it is attached",
+        1e3 * distance_m, cell.link(link).name.c_str(), 1e3 * kAttachWithin_m);
     return failure(
         Problem{ProblemKind::conflict, "too-far", "/attach/object", object + text, distance_m});
   }

@@ -72,6 +72,8 @@ class JobIntake {
     bool begins_anywhere = false;  // jobs need not begin at `rest`
     std::size_t jobs = 0;          // number of earlier jobs of the batch
     std::size_t bytes = 0;         // memory of their trajectories
+    // By object: the link that carries it after all earlier tasks; set with the first of the batch.
+    std::optional<std::map<std::string, LinkId>> carried = {};
   };
   [[nodiscard]] Ahead ahead() const;
   // Checks a request completely; stores nothing. Updates `ahead` for the next request of a batch.
@@ -94,7 +96,6 @@ class JobIntake {
   // Reads a motion of a task.
   [[nodiscard]] PreparedMotion read_step(const StepRequest& asked, const JobRequest& request,
                                          bool is_first, Ahead& ahead, Problems& problems) const;
-  [[nodiscard]] PresentObjects present_objects() const;
   [[nodiscard]] std::vector<JobId> ids_of(const std::vector<std::string>& after) const;
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
                                                         Problems& problems) const;

@@ -38,10 +38,10 @@ std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell,
 
 // Returns a conflict if an arm holds the object.
 std::optional<Problem> held_in(const std::string& name, const PlanningScene& base, const char* slug,
-                               const char* pointer) {
+                               std::string pointer) {
   const auto carrier = carrier_of(base, name);
   if (!carrier) return std::nullopt;
-  return Problem{ProblemKind::conflict, slug, pointer,
+  return Problem{ProblemKind::conflict, slug, std::move(pointer),
                  base.cell().link(*carrier).name + " holds \"" + name +
                      "\": let go of it first with POST /scene/objects/" + name + "/detach",
                  name};
@@ -109,6 +109,7 @@ Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::string place = "/objects/" + std::to_string(i);
     auto taken = taken_in_cell(given[i].name, base.cell(), place);
+    if (!taken) taken = held_in(given[i].name, base, "name-taken", place + "/name");
     if (taken) problems.push_back(std::move(*taken));
     const auto [first, is_first] = index.emplace(given[i].name, i);
     if (is_first) continue;

@@ -41,6 +41,25 @@ std::vector<JobId> Task::motions() const {
   return all;
 }
 
+std::vector<StepRequest> Task::to_come() const {
+  std::vector<StepRequest> requests;
+  for (std::size_t i = at + (is_present_done ? 1 : 0); i < steps.size(); ++i) {
+    requests.push_back(steps[i].request);
+  }
+  return requests;
+}
+
+void change_holding(const Cell& cell, std::span<const StepRequest> steps,
+                    std::map<std::string, LinkId>& carried) {
+  for (const StepRequest& step : steps) {
+    if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
+      carried.insert_or_assign(attach->object, *cell.find_link(attach->link));
+    } else if (const auto* detach = std::get_if<DetachRequest>(&step.what)) {
+      carried.erase(detach->object);
+    }
+  }
+}
+
 JobState state_of(const Task& task, const Scheduler& scheduler) {
   if (task.end) return task.end->state;
   const auto motion = task.next_motion();
@@ -91,6 +110,14 @@ void TaskBook::forget(JobId id) {
   tasks_.erase(task);
 }
 
+std::vector<JobId> TaskBook::active() const {
+  std::vector<JobId> ids;
+  for (const auto& [id, task] : tasks_) {
+    if (!task.end) ids.push_back(id);
+  }
+  return ids;
+}
+
 std::vector<Task*> TaskBook::begun() {
   std::vector<Task*> found;
   for (auto& [id, task] : tasks_) {
@@ -101,14 +128,7 @@ std::vector<Task*> TaskBook::begun() {
 
 void TaskBook::change_holding(const Cell& cell, std::map<std::string, LinkId>& carried) const {
   for (const auto& [id, task] : tasks_) {
-    if (task.end) continue;
-    for (std::size_t i = task.at; i < task.steps.size(); ++i) {
-      if (const auto* attach = std::get_if<AttachRequest>(&task.steps[i].request.what)) {
-        carried.insert_or_assign(attach->object, *cell.find_link(attach->link));
-      } else if (const auto* detach = std::get_if<DetachRequest>(&task.steps[i].request.what)) {
-        carried.erase(detach->object);
-      }
-    }
+    if (!task.end) armloom::change_holding(cell, task.to_come(), carried);
   }
 }
 

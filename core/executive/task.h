@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,12 +52,16 @@ struct Task {
   TouchOf touch = {};               // what objects may touch at present
   bool awaits_record = false;       // StartLog::has_moved; ...
   bool is_present_done = false;     // ... then the present step ends
+  // Why the steps to come do not fit what the arms hold; the task fails when it does not move.
+  std::optional<std::string> misfit = {};
   std::optional<TaskEnd> end = {};
 
   [[nodiscard]] const TaskStep* present() const { return at < steps.size() ? &steps[at] : nullptr; }
   // Returns the job of the present motion, or of the next one; nullopt after the last one.
   [[nodiscard]] std::optional<JobId> next_motion() const;
   [[nodiscard]] std::vector<JobId> motions() const;
+  // Returns the steps to come, the present one included unless it is done.
+  [[nodiscard]] std::vector<StepRequest> to_come() const;
 };
 
 // Returns the state of the task, as clients see it: `paused` if it has begun and its present step
@@ -80,6 +85,8 @@ class TaskBook {
   void forget(JobId id);
   // Returns what the present steps of all tasks allow the object to touch.
   [[nodiscard]] Touch touch_of(const std::string& object) const;
+  // Tasks that have not ended, ascending.
+  [[nodiscard]] std::vector<JobId> active() const;
   // Tasks that have begun and not ended.
   [[nodiscard]] std::vector<Task*> begun();
   // Changes what links carry (by object) as the steps to come of all tasks do.
@@ -89,6 +96,10 @@ class TaskBook {
   std::map<JobId, Task> tasks_;          // by id
   std::map<JobId, JobId> id_of_motion_;  // Task::id, by motion
 };
+
+// Changes what links carry (by object) as these steps do. Precondition: their links are known.
+void change_holding(const Cell& cell, std::span<const StepRequest> steps,
+                    std::map<std::string, LinkId>& carried);
 
 // Links and objects by their names. A name that is no link is an object.
 [[nodiscard]] Touch touch_of(const Cell& cell, const std::vector<std::string>& names);

@@ -20,10 +20,14 @@ bool TaskActions::takes_wake() {
 
 Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
   if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
-    const auto has_arm = has_arm_of(task, *cell_->find_link(attach->link));
-    if (!has_arm || !*has_arm) return has_arm;
-    auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object,
-                            *cell_->find_link(attach->link), touch_of(*cell_, attach->touch));
+    const LinkId link = *cell_->find_link(attach->link);
+    const auto carrier = carrier_of(*scene_.scene(), attach->object);
+    for (const LinkId hand : {link, carrier.value_or(link)}) {
+      const auto has_arm = has_arm_of(task, hand);
+      if (!has_arm || !*has_arm) return has_arm;
+    }
+    auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object, link,
+                            touch_of(*cell_, attach->touch));
     if (!content) return failure(std::move(content.error()));
     return changed_holding(task, attach->object, std::move(*content));
   }
@@ -71,6 +75,12 @@ Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
 Result<bool> TaskActions::has_arm_of(Task& task, LinkId link) {
   const ArmId arm = *cell_->link(link).arm;
   const std::string& name = cell_->arm(arm).name;
+  const std::vector<ArmId> own = arms_of(task);
+  if (std::ranges::find(own, arm) == own.end()) {
+    return failure(Problem{ProblemKind::conflict, "held-by-another-arm", "",
+                           "arm " + name + " holds the object, and no step of this job moves " +
+                               name + ": let a job of " + name + " detach it first"});
+  }
   const auto head = scheduler_.head(arm);
   const bool has_other = head && tasks_.told(*head) != task.id;
   if (!has_other && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;

@@ -225,16 +225,26 @@ Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
   return positions;
 }
 
-PresentObjects JobIntake::present_objects() const {
+PresentObjects present_objects(const PlanningScene& scene) {
   PresentObjects present;
-  const PlanningScenePtr scene = scene_();
-  for (const CollisionObject& object : scene->objects()) present.names.push_back(object.name);
-  for (const Attachment& held : scene->attachments()) {
+  for (const CollisionObject& object : scene.objects()) present.names.push_back(object.name);
+  for (const Attachment& held : scene.attachments()) {
     present.names.push_back(held.object.name);
     present.carried.emplace(held.object.name, held.link);
   }
-  tasks_.change_holding(*cell_, present.carried);
   return present;
+}
+
+std::optional<std::string> find_misfit(const Cell& cell, const std::vector<StepRequest>& steps,
+                                       const PresentObjects& present) {
+  Problems problems;
+  find_bad_steps(cell, steps, present, problems);
+  for (const Problem& problem : problems) {
+    const bool is_of_holding = problem.slug == "not-held" || problem.slug == "held-twice" ||
+                               problem.slug == "no-motion-after";
+    if (is_of_holding) return problem.detail;
+  }
+  return std::nullopt;
 }
 
 std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& request,
@@ -244,10 +254,14 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
     problems.push_back({ProblemKind::invalid, "not-served", "/reorderable",
                         "a job with steps cannot be reordered: leave out \"reorderable\"", "true"});
   }
-  PresentObjects present = present_objects();
+  PresentObjects present = present_objects(*scene_());
+  tasks_.change_holding(*cell_, present.carried);
+  if (ahead.carried) present.carried = *ahead.carried;
   find_bad_steps(*cell_, request.steps, present, problems);
   if (!problems.empty()) return {};
-  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, std::move(present.carried));
+  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, present.carried);
+  change_holding(*cell_, request.steps, present.carried);
+  ahead.carried = std::move(present.carried);
   std::vector<PreparedJob::PreparedStep> steps;
   bool acts_before = false, is_first = true;
   const TouchOf* before = nullptr;

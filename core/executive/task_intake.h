@@ -21,6 +21,9 @@ struct PresentObjects {
   std::map<std::string, LinkId> carried;
 };
 
+// Returns the objects of the scene, and what is carried now.
+[[nodiscard]] PresentObjects present_objects(const PlanningScene& scene);
+
 // Adds what is wrong with the actions of a task, with pointers "/steps/2/attach/link":
 // - "unknown-object", "unknown-link", "link-not-of-arm", "unknown-io", "wrong-type"
 // - "not-held": an object is detached that no arm holds at that step
@@ -30,6 +33,12 @@ struct PresentObjects {
 // - "no-motion": no step moves an arm
 void find_bad_steps(const Cell& cell, const std::vector<StepRequest>& steps,
                     const PresentObjects& present, Problems& problems);
+
+// Returns why these steps, which have been found good before, do not fit what the arms hold now;
+// nullopt if they do.
+[[nodiscard]] std::optional<std::string> find_misfit(const Cell& cell,
+                                                     const std::vector<StepRequest>& steps,
+                                                     const PresentObjects& present);
 
 // Returns the positions of the arm's gripper joints at this width (m). The fingers are links that
 // gripper joints move in a straight line; each joint of several moves as far as the others.

@@ -63,6 +63,8 @@ class TaskRun : Modules {
   // Call after each step of the scheduler.
   void go_on_with_tasks();
   void cancel_task(Task& task);
+  // See Executive::detach().
+  Result<CollisionObject> detach(const std::string& object);
   // A motion of a task has changed.
   void motion_changed(Task& task, JobId motion);
   // The server ends.
@@ -75,6 +77,7 @@ class TaskRun : Modules {
   [[nodiscard]] const Step* lost_motion(const Task& task) const;
   void tell_stop(Task& task, JobId next);
   bool waits_to_retry(Task& task, const std::string& why);
+  void end_misfits();
   bool go_on_with_motion(Task& task, TaskStep& present);
   void end_task(Task& task, TaskEnd end);
   void fail_task(Task& task, Reason reason, std::string detail);

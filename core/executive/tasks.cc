@@ -122,6 +122,11 @@ bool TaskRun::go_on(Task& task) {
     end_task(task, end_of(task, *lost, view_of(*lost, *cell_, jobs_), clock_.now));
     return true;
   }
+  const bool is_moving = present.job && scheduler_.find(*present.job)->has_authority();
+  if (task.misfit && !is_moving) {
+    fail_task(task, Reason::step_failed, *task.misfit);
+    return true;
+  }
   if (task.since && clock_.now < *task.since) {
     actions_.wake_at(*task.since);
     return false;
@@ -238,6 +243,7 @@ void TaskRun::end_task(Task& task, TaskEnd end) {
   task.end = std::move(end);
   task.waits_on.clear();
   tasks_at_end_.erase(task.id);
+  if (task.end->state != JobState::succeeded) end_misfits();
   for (const JobId motion : task.motions()) {
     const Step* step = scheduler_.find(motion);
     if (step != nullptr && !step->has_ended()) this->step(Cancel{motion});
@@ -245,6 +251,32 @@ void TaskRun::end_task(Task& task, TaskEnd end) {
   actions_.set_touch(task, {});
   tell_task(task.id);
   ended_(task.id);
+}
+
+// Finds the tasks whose steps do not fit what the arms hold, because a job before them has ended
+// early, or an operator has let an object go. They fail before they act.
+void TaskRun::end_misfits() {
+  PresentObjects present = present_objects(*scene_.scene());
+  for (const JobId id : tasks_.active()) {
+    Task* task = tasks_.find(id);
+    if (task == nullptr || task->end) continue;
+    const std::vector<StepRequest> steps = task->to_come();
+    const auto misfit = find_misfit(*cell_, steps, present);
+    if (!misfit) {
+      change_holding(*cell_, steps, present.carried);
+      continue;
+    }
+    task->misfit = "what the arms hold has changed since the job was accepted: " + *misfit;
+    const auto next = task->next_motion();
+    const bool is_moving = next && scheduler_.find(*next)->has_authority();
+    if (!is_moving) return fail_task(*task, Reason::step_failed, *task->misfit);  // and looks again
+  }
+}
+
+Result<CollisionObject> TaskRun::detach(const std::string& object) {
+  auto placed = actions_.detach(object);
+  if (placed) end_misfits();
+  return placed;
 }
 
 void TaskRun::fail_task(Task& task, Reason reason, std::string detail) {

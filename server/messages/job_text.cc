@@ -219,6 +219,13 @@ std::string moving_text(const Schema& job, const Present& now) {
   std::string text =
       " has run" + since(job, "started_s", now) + " and is " + percent(job) + " done.";
   if (flag_at(job, "stopping")) return text + braking_text(job, now);
+  const std::size_t steps = list_at(job, "steps").size();
+  if (text_at(job, "state") == "paused" && steps > 0 &&
+      (waits_on(job, "action") || waits_on(job, "io"))) {
+    const auto at = static_cast<std::size_t>(number_at(job, "step").value_or(0.0));
+    return " is at step " + std::to_string(at + 1) + " of " + std::to_string(steps) + ": " +
+           text_at(list_at(job, "waits_on").front(), "detail") + "." + remedy_of(job, now);
+  }
   if (text_at(job, "state") == "paused") {
     return " is paused on its path at " + percent(job) + "." + waits_text(job, now) +
            expiry_of(job, now) + remedy_of(job, now);

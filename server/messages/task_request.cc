@@ -24,6 +24,10 @@ namespace {
 
 constexpr std::size_t kTouchMax = 100;
 constexpr int kRetryMax = 1000;
+constexpr const char* kNoRetry =
+    "this step cannot be tried again: give retry to a step with move_to, attach, detach or "
+    "wait_io, "
+    "or leave it out";
 
 FormatPtr<std::vector<std::string>> touched_names() {
   return list(name(), {.most = kTouchMax, .noun = "names"});
@@ -125,9 +129,7 @@ PartPtr<Body> retry_part() {
 
 template <class Body>
 PartPtr<Body> no_retry() {
-  return not_served<Body>({"retry", "not-served",
-                           "this step cannot be tried again: give retry to a step with move_to, "
-                           "attach, detach or wait_io, or leave it out"});
+  return not_served<Body>({"retry", "not-served", kNoRetry});
 }
 
 FormatPtr<MotionBody> motion_format() {
@@ -146,7 +148,7 @@ FormatPtr<MotionBody> motion_format() {
       field("triggers", &Body::triggers,
             list(trigger_format(), {.most = kTriggersMax, .noun = "triggers"}),
             "Outputs that are set during the motion"),
-      only_with("move_to", &Body::retry, retry_part<Body>()),
+      retry_part<Body>(),
       exactly_one<Body>({"trajectory", "move_to"}),
   });
 }
@@ -185,6 +187,11 @@ class StepFormat final : public CustomFormat<StepRequest> {
                       [motion](const JsonNode& node, StepRequest& out) {
                         MotionBody body;
                         motion.read(node, body);
+                        if (body.trajectory && node.has("retry")) {
+                          node.required("retry", [](const JsonNode& retry) {
+                            retry.invalid("not-served", kNoRetry);
+                          });
+                        }
                         out = {std::move(body.name), motion_of(body, node.pointer().size()),
                                body.retry.value_or(0)};
                       },

@@ -172,7 +172,7 @@ test('The timeline has a segment for each motion', async () => {
 test('A failed job names the step at which it ended', { timeout: 300_000 }, async () => {
   await submit({ id: 'bad', steps: [kPick.steps[0], { name: 'take it', attach: { object: 'part', link: 'left_panda_hand' } }, kHome] });
   await finished(page, 'bad');
-  await reads(page.locator('[data-test="job-bad"] [data-test=reason]'), /^step 2 of 3 \(take it\): part is .* mm or more from the hand/);
+  await reads(page.locator('[data-test="job-bad"] [data-test=reason]'), /^step 2 of 3 \(take it\): part is .* mm or more from left_panda_hand/);
   await go('#/job/bad');
   await counts(steps(), 3);
   assert.deepEqual(await steps().evaluateAll((all) => all.map(({ dataset }) => dataset.state)), ['done', 'failed', 'waiting']);

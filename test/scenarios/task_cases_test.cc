@@ -110,7 +110,7 @@ TEST(Task, FailsAtAKnownStep) {
   EXPECT_EQ(job.reason(), Reason::step_failed);
   ASSERT_TRUE(job.result->step);
   EXPECT_EQ(*job.result->step, 1U);
-  EXPECT_THAT(job.detail(), HasSubstr("from the hand"));
+  EXPECT_THAT(job.detail(), HasSubstr("or more from x_ball"));
   EXPECT_EQ(job.steps[2].state, StepState::waiting);
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);
   EXPECT_NEAR(cell.x_of_part(), 0.13, 1e-9);

@@ -103,6 +103,68 @@ TEST(Task, PlansBehindATaskOnlyWhenItsActionsAreDone) {
   EXPECT_EQ(cell.job("second").state, JobState::succeeded) << cell.job("second").detail();
 }
 
+// The part that x holds is at the hand of y, whose job was accepted before.
+TEST(Task, LeavesWhatAnotherJobHolds) {
+  Tasks cell;
+  cell.submit(task("holder", {slide_to("x", 0.0),
+                              attach("x_ball"),
+                              slide_to("x", -0.26),
+                              {"", WaitRequest{5s}},
+                              slide_to("x", -1.0),
+                              detach(),
+                              slide_to("x", -0.9)}));
+  cell.submit(task(
+      "thief", {{"", WaitRequest{4s}}, slide_to("y", 0.0), attach("y_ball"), slide_to("y", 1.0)}));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("holder").state, JobState::succeeded) << cell.job("holder").detail();
+  EXPECT_EQ(cell.job("thief").reason(), Reason::step_failed);
+  EXPECT_THAT(cell.job("thief").detail(), HasSubstr("arm x holds the object"));
+}
+
+// It would begin with the part in the hand, which it is to pick.
+TEST(Task, FailsBeforeItMovesIfTheHandHoldsSomethingElse) {
+  Tasks cell;
+  cell.submit(task("there", {slide_to("x", 0.0),
+                             attach("x_ball"),
+                             slide_to("x", 0.5),
+                             {"", WaitIoRequest{"ready", true}},
+                             detach(),
+                             slide_to("x", -1.0)}));
+  cell.submit(task("back", {slide_to("x", 0.5), attach("x_ball"), slide_to("x", 0.0), detach(),
+                            slide_to("x", -1.0)}));
+  while (cell.job("there").step != 3) cell.simulation->tick();
+  ASSERT_TRUE(cell.executive().cancel("there"));
+  cell.run_to_the_end();
+  const JobView back = cell.job("back");
+  EXPECT_EQ(back.reason(), Reason::step_failed);
+  EXPECT_THAT(back.detail(), HasSubstr("what the arms hold has changed"));
+  EXPECT_FALSE(back.times.started_at);
+}
+
+// An object is seen at the goal of the second motion while the first one is under way.
+TEST(Task, PlansALaterMotionAgainAtItsTurn) {
+  Tasks cell;
+  ASSERT_TRUE(cell.scene().remove("part"));
+  cell.submit(task("go", {slide_to("x", 0.0), slide_to("x", 1.0)}));
+  while (cell.executive().arms().front().state != ArmState::moving) cell.simulation->tick();
+  ASSERT_TRUE(cell.scene().add(part_at(1.05)));
+  run_until(cell, cell.simulation->now() + 300ms);
+  ASSERT_TRUE(cell.scene().remove("part"));
+  run_to_the_end(cell);
+  EXPECT_EQ(cell.job("go").state, JobState::succeeded) << cell.job("go").detail();
+}
+
+TEST(Task, OfABatchHoldsWhatTheOneBeforeHasTaken) {
+  Tasks cell;
+  std::vector<JobRequest> both;
+  both.push_back(task("pick", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", 0.5)}));
+  both.push_back(task("place", {slide_to("x", 0.4), detach(), slide_to("x", -1.0)}));
+  const auto answers = submit_batch(cell.executive(), std::move(both), true);
+  ASSERT_TRUE(answers) << answers.error().front().detail;
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("place").state, JobState::succeeded) << cell.job("place").detail();
+}
+
 std::string slug_of(const Result<CollisionObject>& answer) {
   return answer ? "" : answer.error().front().slug;
 }

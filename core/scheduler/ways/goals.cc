@@ -194,10 +194,11 @@ bool is_one_of_the_first(const State& state, const Step& step, std::size_t place
   return before < state.cell->arms.size();
 }
 
-// Actions of a task before this job may yet move what is in its way. The first of a queue does not
-// wait for that: the task may wait for it.
+// The first of a queue fails at once. A motion of a task behind others is planned again at its
+// turn. Actions of a task before another job may yet move what is in its way.
 bool may_yet_find_a_path(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return false;
+  if (step.job->task) return true;
   return std::ranges::any_of(state.jobs.of(state.jobs.active()), [&](const Step& other) {
     return other.job->awaits_actions && other.job->turn < step.job->turn;
   });
