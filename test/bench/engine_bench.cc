@@ -134,18 +134,33 @@ void regions_of_pairs(benchmark::State& run) {
   run.counters["blocked_percent"] = 100.0 * blocked / asked / (kMotion_s * kMotion_s);
 }
 
+// Returns the scene in which each hand holds a box of 4 x 4 x 8 cm.
+PlanningScenePtr holding(const PlanningScenePtr& scene) {
+  std::vector<Attachment> held;
+  for (std::uint32_t l = 0; l < scene->cell().links.size(); ++l) {
+    if (!scene->cell().links[l].name.ends_with("panda_hand")) continue;
+    Attachment box{.object = {}, .link = LinkId{l}, .X_LO = Eigen::Isometry3d::Identity()};
+    box.object = {.name = "held_" + std::to_string(l), .shape = Box{{0.04, 0.04, 0.08}}};
+    box.X_LO.translation().z() = 0.12;
+    held.push_back(std::move(box));
+  }
+  return *scene->with({scene->objects(), std::move(held), scene->touch()});
+}
+
 void register_states(const Workloads& workloads) {
   for (const auto& [name, workload] : workloads.states) {
     const States& states = workload;
     const PlanningScenePtr scene = scene_of(states.cell);
-    const auto decided = [&](const std::string& question, const PairLimits& limits) {
+    const auto decided = [&](const std::string& question, const PairLimits& limits,
+                             const PlanningScenePtr& in) {
       benchmark::RegisterBenchmark(
-          ("engine/" + question + "/" + name).c_str(), [&states, scene, limits](auto& run) {
-            ClearanceQuery check(scene, limits);
+          ("engine/" + question + "/" + name).c_str(), [&states, in, limits](auto& run) {
+            ClearanceQuery check(in, limits);
             per_state(run, states, [&](const auto& eight) { return check.too_close(eight); });
           });
     };
-    decided("decided_contact", {0.0, 0.0});
+    decided("decided_contact", {0.0, 0.0}, scene);
+    decided("decided_contact_holding", {0.0, 0.0}, holding(scene));
     // Compares only the capsules of arms, without exact distances.
     benchmark::RegisterBenchmark(("engine/filter/" + name).c_str(), [&states, scene](auto& run) {
       PlacedCell placed(scene->bodies(), {0.0, 0.0});
@@ -160,8 +175,10 @@ void register_states(const Workloads& workloads) {
         return open;
       });
     });
-    decided("decided_clearance",
-            {scene->cell().clearances.clearance_m, scene->cell().clearances.self_clearance_m});
+    const Clearances& limits = scene->cell().clearances;
+    const PairLimits clearance{limits.clearance_m, limits.self_clearance_m};
+    decided("decided_clearance", clearance, scene);
+    decided("decided_clearance_holding", clearance, holding(scene));
   }
 }
 
