@@ -87,6 +87,7 @@ Modules Executive::Impl::modules() {
 void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
+  clear_left_touch(effects);
   if (const auto* report = std::get_if<MotionReport>(&input)) {
     clients_.tasks.actions().fire_triggers(*report);
     if (effects.empty()) return;
@@ -95,6 +96,20 @@ void Executive::Impl::step(const Input& input) {
   publisher_.queue_may_have_changed(clock_.now);
   publisher_.publish_step(clock_.now);
   clients_.tasks.go_on_with_tasks();
+}
+
+// Arms whose motions have ended may have left the objects at which they were. Once all effects are
+// carried out, because this changes the scene, which is a step of its own.
+void Executive::Impl::clear_left_touch(const std::vector<Effect>& effects) {
+  std::vector<ArmId> arms;
+  for (const Effect& effect : effects) {
+    const auto* changed = std::get_if<JobChanged>(&effect);
+    const Step* step = changed == nullptr ? nullptr : scheduler_.find(changed->job);
+    if (step == nullptr || !step->has_ended() || !step->trajectory) continue;
+    const auto& moved = step->trajectory->arms();
+    arms.insert(arms.end(), moved.begin(), moved.end());
+  }
+  if (!arms.empty()) clients_.tasks.actions().clear_left_touch(arms);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -162,9 +177,9 @@ void Executive::Impl::job_changed(JobId id) {
     questions_.plans().give_up(id);
     questions_.give_up(id);
     execution_.forget(changed);
-    if (changed.trajectory) clients_.tasks.actions().clear_left_touch(changed.trajectory->arms());
   }
   if (Task* task = tasks_.find(id)) return clients_.tasks.motion_changed(*task, id);
+  if (jobs_.has_ended(id)) return;  // a step within this one has told it
   JobView view = publisher_.view(id);
   if (changed.has_ended()) clients_.desk.end(id, *view.times.ended_at);
   publisher_.tell_job(std::move(view), clock_.now);
@@ -214,7 +229,9 @@ void Executive::Impl::tick(TimePoint now) {
   }
   for (const MotionReport& report : execution_.tick(now)) {
     clock_.quiet = false;
-    if (!execution_.keeps_back(report)) watch_.take(report);
+    if (execution_.keeps_back(report)) continue;
+    clients_.tasks.end_contact(report);
+    watch_.take(report);
   }
   for (const StepId id : execution_.gate().refused_for_long()) {
     const GuardRefusal why = *execution_.gate().refusal(id);

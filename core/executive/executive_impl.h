@@ -64,6 +64,7 @@ class Executive::Impl {
   [[nodiscard]] Modules modules();
   [[nodiscard]] std::vector<Effect> decided(const Input& input);
   void carry_out(const Effect& effect);
+  void clear_left_touch(const std::vector<Effect>& effects);
   void note_aside(const YieldMove& aside);
   void job_changed(JobId job);
   void show_check();

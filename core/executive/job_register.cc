@@ -15,6 +15,7 @@ void JobRegister::rename(JobId id, std::string name) { labels_.at(id).name = std
 
 std::vector<JobRegister::Forgotten> JobRegister::end(JobId id) {
   ended_.push_back(id);
+  labels_.at(id).has_ended = true;
   active_bytes_ -= labels_.at(id).bytes;
   ended_bytes_ += labels_.at(id).bytes;
   std::vector<Forgotten> forgotten;
@@ -26,6 +27,11 @@ std::vector<JobRegister::Forgotten> JobRegister::end(JobId id) {
     take_out(oldest);
   }
   return forgotten;
+}
+
+bool JobRegister::has_ended(JobId id) const {
+  const auto label = labels_.find(id);
+  return label != labels_.end() && label->second.has_ended;
 }
 
 void JobRegister::forget(JobId id) {

@@ -25,6 +25,7 @@ struct JobLabel {
   std::string name;
   std::optional<TimePoint> submitted_at = {};  // in an earlier session
   std::size_t bytes = 0;                       // of its trajectories
+  bool has_ended = false;                      // JobRegister::end()
 };
 
 class JobRegister final : public JobNames {
@@ -58,6 +59,8 @@ class JobRegister final : public JobNames {
   [[nodiscard]] JobState state(JobId id) const;
   // The label of a task is also that of its motions.
   [[nodiscard]] const JobLabel* label(JobId id) const;
+  // Returns true if end() has been called.
+  [[nodiscard]] bool has_ended(JobId id) const;
   [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
   [[nodiscard]] std::size_t active_bytes() const { return active_bytes_; }
   [[nodiscard]] const std::deque<JobId>& ended() const { return ended_; }  // oldest first

@@ -53,6 +53,9 @@ Touch LeftTouch::allowed(const PlanningScenePtr& scene, const Configuration& at,
   Touch all;
   all.add(now);
   if (left == left_.end()) return all;
+  const auto carrier = carrier_of(*scene, object);
+  // Another arm has taken it.
+  if (carrier && !left->second.arms.contains(*scene->cell().link(*carrier).arm)) return all;
   const Cell& cell = scene->cell();
   const auto without = scene->with(touching(*scene, object, std::move(now)));
   const auto can_move = [&](ArmId arm) {

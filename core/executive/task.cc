@@ -132,15 +132,6 @@ void TaskBook::change_holding(const Cell& cell, std::map<std::string, LinkId>& c
   }
 }
 
-Touch TaskBook::touch_of(const std::string& object) const {
-  Touch touch;
-  for (const auto& [id, task] : tasks_) {
-    const auto of = task.touch.find(object);
-    if (of != task.touch.end()) touch.add(of->second);
-  }
-  return touch;
-}
-
 Touch touch_of(const Cell& cell, const std::vector<std::string>& names) {
   Touch touch;
   for (const std::string& name : names) {

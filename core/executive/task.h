@@ -83,8 +83,6 @@ class TaskBook {
   // Names the job of a motion.
   void set_motion(Task& task, std::size_t step, JobId motion);
   void forget(JobId id);
-  // Returns what the present steps of all tasks allow the object to touch.
-  [[nodiscard]] Touch touch_of(const std::string& object) const;
   // Tasks that have not ended, ascending.
   [[nodiscard]] std::vector<JobId> active() const;
   // Tasks that have begun and not ended.

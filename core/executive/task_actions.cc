@@ -198,10 +198,26 @@ void TaskActions::clear_left_touch(const std::vector<ArmId>& arms) {
   for (const std::string& object : touch_left_.of(arms)) show_touch(object);
 }
 
+// Returns what the present steps of all tasks allow the object to touch. While an arm carries it,
+// only tasks that move this arm count: no other hand may be at an object that moves.
+Touch TaskActions::present_touch(const std::string& object) const {
+  const auto carrier = carrier_of(*scene_.scene(), object);
+  Touch touch;
+  for (const JobId id : tasks_.active()) {
+    const Task& task = *tasks_.find(id);
+    const auto of = task.touch.find(object);
+    if (of == task.touch.end()) continue;
+    const std::vector<ArmId> arms = arms_of(task);
+    if (carrier && std::ranges::find(arms, *cell_->link(*carrier).arm) == arms.end()) continue;
+    touch.add(of->second);
+  }
+  return touch;
+}
+
 // Allows in the scene what the steps allow at present, and what ended steps left.
 void TaskActions::show_touch(const std::string& object) {
   Touch touch = touch_left_.allowed(scene_.scene(), execution_.motions().measured(), object,
-                                    tasks_.touch_of(object));
+                                    present_touch(object));
   if (touch_in(*scene_.scene(), object) == touch) return;
   // Names and links are known.
   (void)scene_.change(touching(*scene_.scene(), object, std::move(touch)));

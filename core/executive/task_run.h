@@ -43,6 +43,7 @@ class TaskActions : Modules {
   Result<bool> changed_holding(Task& task, const std::string& object,
                                PlanningScene::Content content);
   [[nodiscard]] std::vector<ArmId> arms_of(const Task& task) const;
+  [[nodiscard]] Touch present_touch(const std::string& object) const;
   void show_touch(const std::string& object);
 
   std::function<void()> go_on_;
@@ -65,6 +66,10 @@ class TaskRun : Modules {
   void cancel_task(Task& task);
   // See Executive::detach().
   Result<CollisionObject> detach(const std::string& object);
+  // Ends the contact that steps allow during this motion if it ends and another job is next on its
+  // arms: the motion of that job may be admitted already, and may have no contact. Call before the
+  // scheduler has the report.
+  void end_contact(const MotionReport& report);
   // A motion of a task has changed.
   void motion_changed(Task& task, JobId motion);
   // The server ends.

@@ -295,6 +295,22 @@ void TaskRun::cancel_task(Task& task) {
 
 void TaskRun::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
 
+void TaskRun::end_contact(const MotionReport& report) {
+  if (report.kind == MotionReport::Kind::progressed) return;
+  Task* task = tasks_.find(report.step.job);
+  const Step* motion = scheduler_.find(report.step.job);
+  if (task == nullptr || task->end || task->touch.empty() || motion == nullptr) return;
+  const auto* braking = motion->in<Braking>();
+  const bool is_at_end =
+      report.kind != MotionReport::Kind::stopped || (braking != nullptr && braking->after.ends());
+  const auto is_followed = [&](ArmId arm) {
+    const auto next = scheduler_.state().jobs.queues().behind(*motion, arm);
+    return next && tasks_.told(next->job) != task->id;
+  };
+  const auto& arms = motion->trajectory->arms();
+  if (is_at_end && std::ranges::any_of(arms, is_followed)) actions_.set_touch(*task, {});
+}
+
 // A motion of a task has changed.
 void TaskRun::motion_changed(Task& task, JobId motion) {
   const Step& step = *scheduler_.find(motion);

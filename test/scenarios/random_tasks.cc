@@ -111,6 +111,11 @@ void RandomTasks::tidy_up() {
   for (const auto& [part, start] : starts_) {
     if (held_.contains(part) && !executive_().detach(part)) continue;
     held_.erase(part);
+    const auto is_there = [&](const auto& other) {
+      const Eigen::Vector3d apart = other.second.translation() - start.object.X_WO.translation();
+      return other.first != part && apart.norm() < 2 * kPart_m + 0.03;
+    };
+    if (std::ranges::any_of(X_W_part_, is_there)) continue;     // another part is there
     if (!executive_().scene().replace(start.object)) continue;  // an arm is there
     X_W_part_[part] = start.object.X_WO;
     grasps_[part] = start.grasp;
