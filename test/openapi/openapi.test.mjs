@@ -398,6 +398,22 @@ test('objects are added, moved and removed', async () => {
   await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
 });
 
+test('an operator lets go of an object that an arm holds', async () => {
+  const object = `${v1}/scene/objects/{name}`;
+  const part = {args: {name: 'part'}};
+  await call(201, 'PUT', object, {...part, body: {box: [0.04, 0.04, 0.08], xyz: [-0.1, 0.35, 0.141]}});
+  await call(409, 'POST', `${object}/detach`, part);
+  await call(404, 'POST', `${object}/detach`, {args: {name: 'nothing'}});
+  const pose = {link: 'left_panda_hand', xyz: [-0.1, 0.35, 0.25], rpy: [3.14159265, 0, 0.785]};
+  const steps = [{arm: 'left', move_to: {pose}}, {attach: {object: 'part', link: 'left_panda_hand', touch: ['table']}},
+    {arm: 'left', move_to: {named: 'home'}}];
+  await call(202, 'POST', `${v1}/jobs`, {body: {id: 'hold', steps}});
+  await ended('hold');
+  await call(409, 'DELETE', object, part);
+  await call(200, 'POST', `${object}/detach`, part);
+  await call(200, 'DELETE', object, part);
+});
+
 test('all objects are set and removed at once', async () => {
   const stale = {headers: {'If-Match': '"nothing"'}};
   const body = example(`${v1}/scene`, 'PUT', 'voxels');
