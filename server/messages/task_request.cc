@@ -148,7 +148,7 @@ FormatPtr<MotionBody> motion_format() {
       field("triggers", &Body::triggers,
             list(trigger_format(), {.most = kTriggersMax, .noun = "triggers"}),
             "Outputs that are set during the motion"),
-      retry_part<Body>(),
+      only_with("move_to", &Body::retry, retry_part<Body>()),
       exactly_one<Body>({"trajectory", "move_to"}),
   });
 }
@@ -187,11 +187,6 @@ class StepFormat final : public CustomFormat<StepRequest> {
                       [motion](const JsonNode& node, StepRequest& out) {
                         MotionBody body;
                         motion.read(node, body);
-                        if (body.trajectory && node.has("retry")) {
-                          node.required("retry", [](const JsonNode& retry) {
-                            retry.invalid("not-served", kNoRetry);
-                          });
-                        }
                         out = {std::move(body.name), motion_of(body, node.pointer().size()),
                                body.retry.value_or(0)};
                       },
