@@ -9,7 +9,7 @@ namespace armloom {
 
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
                            Alert::Level level, StopCategory category) {
-  // Whoever asks again and again is heard each time, and told of once.
+  // Each request stops the arms; only the first one of a cause is published.
   const bool is_news = std::ranges::any_of(arms, [&](ArmId arm) {
     const auto& stop = scheduler_.state().arms.stop_of(arm);
     return !stop || stop->cause != cause;

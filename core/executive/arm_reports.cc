@@ -7,16 +7,16 @@
 
 namespace armloom {
 
-ArmReports::ArmReports(const Of& of)
-    : of_(of), present_(of.cell.arms.size()), told_(of.cell.arms.size()) {}
+ArmReports::ArmReports(const Shown& shown)
+    : shown_(shown), present_(shown.cell.arms.size()), told_(shown.cell.arms.size()) {}
 
 void ArmReports::look() {
-  for (ArmId arm : all_arms(of_.cell)) present_[arm.index()] = status_of(arm);
+  for (ArmId arm : all_arms(shown_.cell)) present_[arm.index()] = status_of(arm);
 }
 
 std::vector<ArmView> ArmReports::take_changed() {
   std::vector<ArmView> changed;
-  for (ArmId arm : all_arms(of_.cell)) {
+  for (ArmId arm : all_arms(shown_.cell)) {
     const ArmStatus& status = present_[arm.index()];
     ArmStatus& told = told_[arm.index()];
     const bool is_same = status.state == told.state && status.job == told.job &&
@@ -33,40 +33,40 @@ std::vector<ArmView> ArmReports::take_changed() {
 
 std::vector<ArmView> ArmReports::views() const {
   std::vector<ArmView> views;
-  for (ArmId arm : all_arms(of_.cell)) views.push_back(view_of_arm(arm, status_of(arm)));
+  for (ArmId arm : all_arms(shown_.cell)) views.push_back(view_of_arm(arm, status_of(arm)));
   return views;
 }
 
 bool ArmReports::all_stopped() const {
-  return std::ranges::all_of(all_arms(of_.cell),
-                             [this](ArmId arm) { return of_.scheduler.stopped(arm); });
+  return std::ranges::all_of(all_arms(shown_.cell),
+                             [this](ArmId arm) { return shown_.scheduler.stopped(arm); });
 }
 
 std::vector<ArmAuthority> ArmReports::authorities() const {
   std::vector<ArmAuthority> all;
-  for (const Motions::UnderWay& motion : of_.motions.under_way()) {
-    all.push_back({of_.cell.arm(motion.arm).name, of_.jobs.key(motion.step.job), motion.progress,
-                   motion.authority});
+  for (const Motions::UnderWay& motion : shown_.motions.under_way()) {
+    all.push_back({shown_.cell.arm(motion.arm).name, shown_.jobs.key(motion.step.job),
+                   motion.progress, motion.authority});
   }
   return all;
 }
 
-// Of a job that has not begun: it may not leave where it stands before that is on disk.
+// Returns true if the arm has a job that has not begun: the arm stays until the start is stored.
 bool ArmReports::is_told_of_a_start(ArmId arm) const {
-  const auto job = of_.scheduler.occupant(arm);
-  return job && of_.starts.knows(*job) && !of_.scheduler.find(*job)->times.started_at;
+  const auto job = shown_.scheduler.occupant(arm);
+  return job && shown_.starts.knows(*job) && !shown_.scheduler.find(*job)->times.started_at;
 }
 
 ArmState ArmReports::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
-  const Phase phase = of_.motions.feedback(arm).phase;
+  const Phase phase = shown_.motions.feedback(arm).phase;
   if (phase == Phase::fault) return ArmState::fault;
   // A lost arm has come to rest, or will do so; what it does is not known.
-  const bool is_lost = of_.motions.link(arm).state() == ArmLink::State::lost;
-  const bool moves = of_.motions.moving(arm) && !is_lost && !is_told_of_a_start(arm);
-  if (of_.scheduler.stopped(arm) && !moves) return ArmState::stopped;
-  const auto job = of_.scheduler.occupant(arm);
-  if (job && of_.scheduler.find(*job)->pausing()) return ArmState::paused;
+  const bool is_lost = shown_.motions.link(arm).state() == ArmLink::State::lost;
+  const bool moves = shown_.motions.moving(arm) && !is_lost && !is_told_of_a_start(arm);
+  if (shown_.scheduler.stopped(arm) && !moves) return ArmState::stopped;
+  const auto job = shown_.scheduler.occupant(arm);
+  if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::paused;
   if (moves) return ArmState::moving;
   return job && phase == Phase::stopped ? ArmState::paused : ArmState::idle;
 }
@@ -74,26 +74,27 @@ ArmState ArmReports::state_of(ArmId arm) const {
 ArmStatus ArmReports::status_of(ArmId arm) const {
   const double deviation_max_rad = present_[arm.index()].deviation_max_rad;
   ArmStatus status{.state = state_of(arm),
-                   .stopped = of_.scheduler.stopped(arm),
-                   .deviation_rad = of_.motions.deviation(arm, deviation_max_rad),
-                   .link = of_.motions.link(arm).state(),
-                   .link_detail = of_.motions.link(arm).detail(),
-                   .drives_on = of_.motions.feedback(arm).drives_on,
-                   .speed_override = of_.scheduler.state().speed.arm(arm),
-                   .effective_speed_override = of_.scheduler.state().speed.effective(arm)};
-  if (const auto& stop = of_.scheduler.state().arms.stop_of(arm)) status.stop_cause = stop->cause;
+                   .stopped = shown_.scheduler.stopped(arm),
+                   .deviation_rad = shown_.motions.deviation(arm, deviation_max_rad),
+                   .link = shown_.motions.link(arm).state(),
+                   .link_detail = shown_.motions.link(arm).detail(),
+                   .drives_on = shown_.motions.feedback(arm).drives_on,
+                   .speed_override = shown_.scheduler.state().speed.arm(arm),
+                   .effective_speed_override = shown_.scheduler.state().speed.effective(arm)};
+  if (const auto& stop = shown_.scheduler.state().arms.stop_of(arm))
+    status.stop_cause = stop->cause;
   status.deviation_max_rad = std::max(deviation_max_rad, status.deviation_rad);
-  status.job = of_.scheduler.occupant(arm);
+  status.job = shown_.scheduler.occupant(arm);
   if (status.job) {
-    const Step& step = *of_.scheduler.find(*status.job);
+    const Step& step = *shown_.scheduler.find(*status.job);
     status.progress = to_seconds(step.progress) / to_seconds(step.trajectory->duration());
   }
   return status;
 }
 
 ArmView ArmReports::view_of_arm(ArmId arm, const ArmStatus& status) const {
-  return view_of(status, arm, of_.cell, of_.motions.measured(),
-                 status.job ? of_.jobs.key(*status.job) : std::string());
+  return view_of(status, arm, shown_.cell, shown_.motions.measured(),
+                 status.job ? shown_.jobs.key(*status.job) : std::string());
 }
 
 }  // namespace armloom

@@ -2,26 +2,15 @@
 
 #include <vector>
 
-#include "core/executive/job_register.h"
-#include "core/executive/motions.h"
-#include "core/executive/start_gate.h"
+#include "core/executive/shown.h"
 #include "core/executive/status_board.h"
-#include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
 // The views of arms for clients.
 class ArmReports {
  public:
-  // The objects of which it tells; all outlive it.
-  struct Of {
-    const Cell& cell;
-    const Scheduler& scheduler;
-    const Motions& motions;
-    const JobRegister& jobs;
-    const StartGate& starts;
-  };
-  explicit ArmReports(const Of& of);
+  explicit ArmReports(const Shown& shown);
 
   // Updates present().
   void look();
@@ -38,7 +27,7 @@ class ArmReports {
   [[nodiscard]] ArmStatus status_of(ArmId arm) const;
   [[nodiscard]] ArmView view_of_arm(ArmId arm, const ArmStatus& status) const;
 
-  Of of_;
+  Shown shown_;
   std::vector<ArmStatus> present_;  // by ArmId, ...
   std::vector<ArmStatus> told_;     // ... and in the last take_changed()
 };

@@ -38,9 +38,7 @@ Alert alert_of_expired(const std::vector<std::string>& names) {
 }  // namespace
 
 Publisher::Publisher(const Shown& shown, Observer& observer)
-    : shown_(shown),
-      observer_(observer),
-      arms_({shown.cell, shown.scheduler, shown.motions, shown.jobs, shown.starts}) {
+    : shown_(shown), observer_(observer), arms_(shown) {
   told_.queue = queue();
   publish_scene();
   publish_signals();

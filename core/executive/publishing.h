@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "core/executive/arm_reports.h"
-#include "core/executive/authority_gate.h"
 #include "core/executive/executive.h"
-#include "core/executive/job_register.h"
-#include "core/executive/live_scene.h"
-#include "core/executive/motions.h"
 #include "core/executive/queue_lists.h"
-#include "core/executive/signals.h"
-#include "core/executive/start_gate.h"
+#include "core/executive/shown.h"
 #include "core/executive/status_board.h"
-#include "core/executive/task.h"
-#include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
@@ -25,18 +18,6 @@ namespace armloom {
 // (status_board.h). The board is updated before an event is published.
 class Publisher {
  public:
-  // The objects whose state is published. All of them outlive the publisher.
-  struct Shown {
-    const Cell& cell;
-    const Scheduler& scheduler;
-    const Motions& motions;
-    const AuthorityGate& gate;
-    const JobRegister& jobs;
-    const StartGate& starts;
-    const LiveScene& scene;
-    const Signals& signals;
-    const TaskBook& tasks;
-  };
   Publisher(const Shown& shown, Observer& observer);
 
   using Body = decltype(Event::body);

@@ -70,13 +70,12 @@ Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
   return false;
 }
 
-// Returns true if no other job moves the arm of the link. Otherwise the task waits for that, or
-// fails if it would wait for a job that may wait for this task.
+// Returns true if no other job moves the arm of the link. Otherwise the task waits for that. It
+// fails if it does not move this arm, or if it would wait for a job that may wait for this task.
 Result<bool> TaskActions::has_arm_of(Task& task, LinkId link) {
   const ArmId arm = *cell_->link(link).arm;
   const std::string& name = cell_->arm(arm).name;
-  const std::vector<ArmId> own = arms_of(task);
-  if (std::ranges::find(own, arm) == own.end()) {
+  if (!moves(task, arm)) {
     return failure(Problem{ProblemKind::conflict, "held-by-another-arm", "",
                            "arm " + name + " holds the object, and no step of this job moves " +
                                name + ": let a job of " + name + " detach it first"});
@@ -84,13 +83,13 @@ Result<bool> TaskActions::has_arm_of(Task& task, LinkId link) {
   const auto head = scheduler_.head(arm);
   const bool has_other = head && tasks_.told(*head) != task.id;
   if (!has_other && !scheduler_.stopped(arm) && !execution_.motions().moving(arm)) return true;
-  const auto moves = [&](const TaskStep& step) {
+  const auto moves_it = [&](const TaskStep& step) {
     if (!step.job) return false;
     const auto& arms = scheduler_.find(*step.job)->trajectory->arms();
     return std::ranges::find(arms, arm) != arms.end();
   };
   const auto to_come = std::span(task.steps).subspan(task.at);
-  if (has_other && std::ranges::none_of(to_come, moves)) {
+  if (has_other && std::ranges::none_of(to_come, moves_it)) {
     return failure(Problem{ProblemKind::conflict, "arm-in-use", "",
                            "arm " + name + " has another job: add a motion of " + name +
                                " after this step, so that the job keeps the arm until then"});
@@ -160,8 +159,7 @@ Result<CollisionObject> TaskActions::detach(const std::string& object) {
                            object});
   }
   for (const Task* task : tasks_.begun()) {
-    const auto arms = arms_of(*task);
-    if (std::ranges::find(arms, arm) == arms.end()) continue;
+    if (!moves(*task, arm)) continue;
     const std::string& key = jobs_.key(task->id);
     return failure(Problem{ProblemKind::conflict, "job-under-way", "",
                            "job " + key + " is under way and uses arm " + name +
@@ -194,6 +192,11 @@ std::vector<ArmId> TaskActions::arms_of(const Task& task) const {
   return arms;
 }
 
+bool TaskActions::moves(const Task& task, ArmId arm) const {
+  const std::vector<ArmId> arms = arms_of(task);
+  return std::ranges::find(arms, arm) != arms.end();
+}
+
 void TaskActions::clear_left_touch(const std::vector<ArmId>& arms) {
   for (const std::string& object : touch_left_.of(arms)) show_touch(object);
 }
@@ -207,8 +210,7 @@ Touch TaskActions::present_touch(const std::string& object) const {
     const Task& task = *tasks_.find(id);
     const auto of = task.touch.find(object);
     if (of == task.touch.end()) continue;
-    const std::vector<ArmId> arms = arms_of(task);
-    if (carrier && std::ranges::find(arms, *cell_->link(*carrier).arm) == arms.end()) continue;
+    if (carrier && !moves(task, *cell_->link(*carrier).arm)) continue;
     touch.add(of->second);
   }
   return touch;

@@ -43,6 +43,7 @@ class TaskActions : Modules {
   Result<bool> changed_holding(Task& task, const std::string& object,
                                PlanningScene::Content content);
   [[nodiscard]] std::vector<ArmId> arms_of(const Task& task) const;
+  [[nodiscard]] bool moves(const Task& task, ArmId arm) const;
   [[nodiscard]] Touch present_touch(const std::string& object) const;
   void show_touch(const std::string& object);
 

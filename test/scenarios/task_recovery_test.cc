@@ -118,6 +118,8 @@ TEST(Task, LeavesWhatAnotherJobHolds) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("holder").state, JobState::succeeded) << cell.job("holder").detail();
   EXPECT_EQ(cell.job("thief").reason(), Reason::step_failed);
+  // It kept its clearance while x held the part, so it came too late.
+  EXPECT_THAT(cell.job("thief").detail(), HasSubstr("or more from y_ball"));
 }
 
 // It would begin with the part in the hand, which it is to pick.
