@@ -93,16 +93,6 @@ TEST(Task, PicksWhatAJobBeforeItPlaces) {
   EXPECT_EQ(refused.error().front().slug, "not-held");
 }
 
-// The path of `second` is asked for while x holds the part, or while it lies at its goal.
-TEST(Task, PlansBehindATaskOnlyWhenItsActionsAreDone) {
-  Tasks cell;
-  cell.submit(task("first", pick_and_place()));  // from 0.13 to 0.63
-  cell.submit(task("second", {slide_to("x", 0.13), set("valve", true), slide_to("x", -1.0)}));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("first").state, JobState::succeeded) << cell.job("first").detail();
-  EXPECT_EQ(cell.job("second").state, JobState::succeeded) << cell.job("second").detail();
-}
-
 // The part that x holds is at the hand of y, whose job was accepted before.
 TEST(Task, LeavesWhatAnotherJobHolds) {
   Tasks cell;
