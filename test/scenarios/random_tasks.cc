@@ -106,8 +106,11 @@ std::vector<std::string> RandomTasks::see(const SceneView& scene) {
 void RandomTasks::set_input() { (void)executive_().signals().set("ready", random_.chance(0.7)); }
 
 void RandomTasks::tidy_up() {
-  const auto moves = [](const ArmView& arm) { return arm.state == ArmState::moving; };
-  if (std::ranges::any_of(executive_().arms(), moves)) return;
+  // The server knows where an arm without a link was; the operator of a cell sees where it is.
+  const auto may_move = [](const ArmView& arm) {
+    return arm.state == ArmState::moving || arm.link != ArmLink::State::up;
+  };
+  if (std::ranges::any_of(executive_().arms(), may_move)) return;
   for (const auto& [part, start] : starts_) {
     if (held_.contains(part) && !executive_().detach(part)) continue;
     held_.erase(part);
