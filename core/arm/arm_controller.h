@@ -49,8 +49,11 @@ struct ArmCommand {
   // Speed override. The rate of an arm is trajectory time per cell time; the planned rate is 1.
   // `share`: the largest permitted rate, 0 to 1, from now on and for all later motions. The rate
   // changes within the joints' limits. At 0 the arm comes to rest on its path.
+  // `brake`: the share of these limits that the arm keeps with what it holds
+  // (core/model/payload.h); `share` is at most its square root.
   struct SetSpeed {
     double share = 1.0;
+    double brake = 1.0;
   };
 
   CommandNumber number = 0;

@@ -73,7 +73,7 @@ void ArmLink::command(ArmCommand::Release release) {
 
 // Only the last of several that wait counts. It goes before a motion that waits.
 void ArmLink::command(ArmCommand::SetSpeed speed) {
-  speed_ = speed.share;
+  speed_ = speed;
   std::erase_if(waiting_, [](const What& what) {
     return std::holds_alternative<ArmCommand::SetSpeed>(what);
   });
@@ -155,7 +155,7 @@ void ArmLink::synchronize(const ArmFeedback& first) {
   released_ = brake_ = 0;
   braking_since_.reset();
   fastest_.reset();
-  if (speed_) command(ArmCommand::SetSpeed{*speed_});  // the controller may have been restarted
+  if (speed_) command(ArmCommand::SetSpeed(*speed_));  // the controller may have been restarted
   if (!motion_ || motion_->number <= number_) return;
   motion_->lost = heard_.acknowledged >= motion_->number
                       ? "the controller has lost its motion: it was restarted"

@@ -84,9 +84,9 @@ class ArmLink {
   bool was_in_use_ = false;
   bool is_new_ = true;  // no report of this connection has arrived yet
 
-  std::optional<double> speed_;  // the last SetSpeed: repeated on each new connection
-  std::deque<What> waiting_;     // not sent
-  std::deque<ArmCommand> sent_;  // not acknowledged
+  std::optional<ArmCommand::SetSpeed> speed_;  // the last one: repeated on each new connection
+  std::deque<What> waiting_;                   // not sent
+  std::deque<ArmCommand> sent_;                // not acknowledged
   TimePoint now_{};
   TimePoint sent_at_{};       // last time that anything was sent
   CommandNumber number_ = 0;  // of the last command sent

@@ -151,7 +151,10 @@ std::string SimulatedArm::carry_out(const ArmCommand::Release&) {
 
 std::string SimulatedArm::carry_out(const ArmCommand::SetSpeed& speed) {
   if (!(speed.share >= 0.0 && speed.share <= 1.0)) return "the speed override is not within 0..1";
-  motion_.set_speed(speed.share);
+  if (!(speed.brake > 0.0 && speed.brake <= 1.0))
+    return "the share of the brake is not within 0..1";
+  brake_ = speed.brake;
+  motion_.set_speed(std::min(1.0, speed.share / clock()));
   return {};
 }
 
@@ -196,7 +199,8 @@ void SimulatedArm::coast(Duration period) {
   double fastest = 0.0;
   for (Eigen::Index i = 0; i < position_.size(); ++i) {
     double& velocity = (*coasting_)[i];
-    const double slower = cell_->joint(joints_[static_cast<std::size_t>(i)]).brake * period_s;
+    const double slower =
+        brake_ * cell_->joint(joints_[static_cast<std::size_t>(i)]).brake * period_s;
     const double after = std::copysign(std::max(0.0, std::abs(velocity) - slower), velocity);
     position_[i] += 0.5 * (velocity + after) * period_s;
     velocity = after;
@@ -225,7 +229,8 @@ void SimulatedArm::begin(TimePoint now, TimePoint previous) {
 
 void SimulatedArm::advance(Duration period) {
   const Duration before = feedback_.commanded_progress;
-  motion_.advance(period, feedback_.phase == Phase::braking);
+  motion_.advance(brake_ == 1.0 ? period : from_seconds(to_seconds(period) * clock()),
+                  feedback_.phase == Phase::braking);
   feedback_.commanded_progress = motion_.progress();
   const bool moved = feedback_.measured_progress != feedback_.commanded_progress || offset_.is_any;
   if (moved) {

@@ -4,6 +4,7 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/executive_impl.h"
+#include "core/model/payload.h"
 
 namespace armloom {
 
@@ -48,9 +49,25 @@ std::vector<ArmId> Executive::Impl::resume(std::vector<ArmId> arms) {
 
 void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
   step(SetSpeed{arm, share});
-  std::vector<double> shares;
-  for (ArmId each : all_arms(*cell_)) shares.push_back(scheduler_.state().speed.effective(each));
-  execution_.set_speed(std::move(shares));
+  pass_on_speed();
+}
+
+void Executive::Impl::set_brakes() {
+  bool has_changed = false;
+  for (const ArmId arm : all_arms(*cell_)) {
+    const double share = kept_brake(*cell_, arm, scene_.scene()->attachments());
+    if (share == scheduler_.state().speed.brake(arm)) continue;
+    has_changed = true;
+    step(SetBrake{arm, share});
+  }
+  if (has_changed) pass_on_speed();
+}
+
+void Executive::Impl::pass_on_speed() {
+  std::vector<ArmCommand::SetSpeed> speeds;
+  const SpeedOverride& speed = scheduler_.state().speed;
+  for (ArmId arm : all_arms(*cell_)) speeds.push_back({speed.effective(arm), speed.brake(arm)});
+  execution_.set_speed(std::move(speeds));
   publisher_.tell_arms(clock_.now);
 }
 

@@ -39,7 +39,9 @@ class Execution {
     motions_.brake(arm, category);
   }
   void brake_all() { motions_.brake_all(); }
-  void set_speed(std::vector<double> shares) { motions_.set_speed(std::move(shares)); }
+  void set_speed(std::vector<ArmCommand::SetSpeed> speeds) {
+    motions_.set_speed(std::move(speeds));
+  }
   void forget(const Step& ended);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.

@@ -314,6 +314,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   execution_.gate().look_at(now);
   watch_.follow(query);
   publisher_.scene_has_changed(clock_.now);
+  set_brakes();
   if (is_within_reach) step(SceneChanged{arms});
 }
 

@@ -8,6 +8,7 @@
 #include "core/collision/state/body_distance.h"
 #include "core/model/attachment.h"
 #include "core/model/kinematics.h"
+#include "core/model/payload.h"
 
 namespace armloom {
 namespace {
@@ -120,6 +121,10 @@ Result<Content> attached(const PlanningScene& scene, const Configuration& measur
   next.touch_objects = std::move(touch.objects);
   allow(content, object, {});
   content.attachments->push_back(std::move(next));
+  if (auto overload = find_overload(cell, *cell.link(link).arm, *content.attachments)) {
+    overload->pointer = "/attach/object";
+    return failure(*std::move(overload));
+  }
   return content;
 }
 
@@ -172,7 +177,7 @@ HeldView place_of(const PlanningScene& scene, const std::string& object) {
     return {*std::ranges::find(scene.objects(), object, &CollisionObject::name)};
   }
   const Link& link = scene.cell().link(held->link);
-  return {{held->object.name, held->object.shape, held->X_LO},
+  return {{held->object.name, held->object.shape, held->X_LO, held->object.mass},
           link.name,
           scene.cell().arm(*link.arm).name};
 }

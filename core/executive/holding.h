@@ -31,6 +31,7 @@ struct Touch {
 // changes hands. `measured`: positions of all joints. Problems, with pointers into an attach step:
 // - "unknown-object": neither in the scene nor carried
 // - "too-far": no part of the hand is within kAttachWithin_m
+// - those of find_overload()
 // Precondition: an arm moves the link.
 [[nodiscard]] Result<PlanningScene::Content> attached(const PlanningScene& scene,
                                                       const Configuration& measured,

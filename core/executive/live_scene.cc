@@ -99,7 +99,7 @@ Result<Outline> outline(const ObjectRemoved& edit, const PlanningScene& base) {
 }
 
 bool is_same(const CollisionObject& a, const CollisionObject& b) {
-  return a.shape == b.shape && a.X_WO.matrix() == b.X_WO.matrix();
+  return a.shape == b.shape && a.X_WO.matrix() == b.X_WO.matrix() && a.mass == b.mass;
 }
 
 Result<Outline> outline(const ObjectsSet& edit, const PlanningScene& base) {

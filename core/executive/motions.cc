@@ -22,7 +22,7 @@ bool at_rest(Phase phase) {
 Motions::Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
                  Configuration measured)
     : cell_(std::move(cell)),
-      shares_(controllers.size(), 1.0),
+      speeds_(controllers.size()),
       measured_(std::move(measured)),
       truth_(measured_) {
   for (std::size_t a = 0; a < controllers.size(); ++a) {
@@ -68,8 +68,8 @@ void Motions::brake_all() {
   for (std::uint32_t a = 0; a < arms_.size(); ++a) command(ArmId{a}, ArmCommand::Brake{});
 }
 
-void Motions::set_speed(std::vector<double> shares) {
-  shares_ = std::move(shares);
+void Motions::set_speed(std::vector<ArmCommand::SetSpeed> speeds) {
+  speeds_ = std::move(speeds);
   for (std::uint32_t a = 0; a < arms_.size(); ++a) pass_on_speed({ArmId{a}});
   for (const auto& [step, motion] : motions_) {
     if (motion.trajectory->arms().size() > 1) pass_on_speed(motion.trajectory->arms());
@@ -77,9 +77,12 @@ void Motions::set_speed(std::vector<double> shares) {
 }
 
 void Motions::pass_on_speed(const std::vector<ArmId>& together) {
-  double share = 1.0;
-  for (ArmId arm : together) share = std::min(share, shares_[arm.index()]);
-  for (ArmId arm : together) command(arm, ArmCommand::SetSpeed{share});
+  ArmCommand::SetSpeed smallest;
+  for (ArmId arm : together) {
+    smallest.share = std::min(smallest.share, speed(arm).share);
+    smallest.brake = std::min(smallest.brake, speed(arm).brake);
+  }
+  for (ArmId arm : together) command(arm, smallest);
 }
 
 void Motions::brake(StepId step) {

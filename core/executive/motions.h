@@ -31,9 +31,9 @@ class Motions {
   // Brakes an arm that may have no motion.
   void brake(ArmId arm, StopCategory category) { command(arm, ArmCommand::Brake{category}); }
   void brake_all();
-  // Sets the speed override of each arm (ArmId). The arms of one motion get their smallest share.
-  void set_speed(std::vector<double> shares);
-  [[nodiscard]] double speed(ArmId arm) const { return shares_[arm.index()]; }
+  // Sets the speed of each arm (ArmId). The arms of one motion get their smallest shares.
+  void set_speed(std::vector<ArmCommand::SetSpeed> speeds);
+  [[nodiscard]] const ArmCommand::SetSpeed& speed(ArmId arm) const { return speeds_[arm.index()]; }
   void release(StepId step);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of steps.
@@ -108,8 +108,8 @@ class Motions {
   void keep_together(Motion& motion);
 
   CellPtr cell_;
-  std::vector<LinkedArm> arms_;  // by ArmId
-  std::vector<double> shares_;   // by ArmId: speed override
+  std::vector<LinkedArm> arms_;               // by ArmId
+  std::vector<ArmCommand::SetSpeed> speeds_;  // by ArmId
   Configuration measured_;
   Configuration truth_;
   std::map<StepId, Motion> motions_;

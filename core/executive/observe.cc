@@ -29,7 +29,8 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .authority = position.at_rest ? feedback.measured_progress
                                       : std::max(motions.granted(arm), feedback.authority),
         .starts = motions.starts(arm),
-        .speed = motions.speed(arm),
+        .speed = motions.speed(arm).share,
+        .brake = motions.speed(arm).brake,
         .rests = rests,
         .brakes = brakes,
         .braking_since = link.braking_since(),

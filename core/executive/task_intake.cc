@@ -6,12 +6,14 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/base/add_below.h"
 #include "core/executive/gripper_goal.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/signals.h"
+#include "core/model/payload.h"
 #include "core/planning/plan_goal.h"
 #include "core/trajectory/implicit_start.h"
 #include "core/trajectory/set_joints.h"
@@ -31,6 +33,7 @@ class StepCheck {
         steps_(steps),
         known_(present.names.begin(), present.names.end()),
         holder_(present.carried),
+        masses_kg_(present.masses_kg),
         problems_(problems) {}
 
   void check() {
@@ -103,6 +106,7 @@ class StepCheck {
         look_for_motion_of(*cell_.link(held->second).arm, "/attach/object", attach.object);
       }
       holder_.insert_or_assign(attach.object, *link);
+      look_at_mass(attach.object, *link);
       look_for_motion_of(*cell_.link(*link).arm, "/attach/link", attach.link);
     }
   }
@@ -129,6 +133,18 @@ class StepCheck {
             "\": add it first with PUT /scene/objects/{name}; GET "
             "/scene lists the objects",
         object);
+  }
+  // The lever of the mass shows only when the hand is at the object.
+  void look_at_mass(const std::string& object, LinkId link) {
+    const auto known = masses_kg_.find(object);
+    if (known == masses_kg_.end()) return;
+    Attachment held{.object = {}, .link = link, .touch = {}};
+    held.object.name = object;
+    held.object.mass.kg = known->second;
+    auto overload = find_overload(cell_, *cell_.link(link).arm, std::span(&held, 1));
+    if (!overload) return;
+    overload->pointer = place_of_step(at_) + "/attach/object";
+    problems_.push_back(*std::move(overload));
   }
   void look_at_touch(const std::vector<std::string>& names, const char* member) {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -174,6 +190,7 @@ class StepCheck {
   const std::vector<StepRequest>& steps_;
   std::set<std::string> known_;
   std::map<std::string, LinkId> holder_;  // link, by object
+  const std::map<std::string, double>& masses_kg_;
   Problems& problems_;
   std::size_t at_ = 0;
 };
@@ -227,9 +244,13 @@ Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
 
 PresentObjects present_objects(const PlanningScene& scene) {
   PresentObjects present;
-  for (const CollisionObject& object : scene.objects()) present.names.push_back(object.name);
+  const auto add = [&](const CollisionObject& object) {
+    present.names.push_back(object.name);
+    if (object.mass.kg > 0.0) present.masses_kg.emplace(object.name, object.mass.kg);
+  };
+  for (const CollisionObject& object : scene.objects()) add(object);
   for (const Attachment& held : scene.attachments()) {
-    present.names.push_back(held.object.name);
+    add(held.object);
     present.carried.emplace(held.object.name, held.link);
   }
   return present;

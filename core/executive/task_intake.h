@@ -19,6 +19,7 @@ struct PresentObjects {
   std::vector<std::string> names;
   // By name: the link that carries the object after all tasks before this one.
   std::map<std::string, LinkId> carried;
+  std::map<std::string, double> masses_kg = {};  // by name, if not zero
 };
 
 // Returns the objects of the scene, and what is carried now.

@@ -181,6 +181,11 @@ struct SetSpeed {
   std::optional<ArmId> arm;
   double share;
 };
+// The arm keeps this share, above 0, of its brake with what it holds now.
+struct SetBrake {
+  ArmId arm;
+  double share;
+};
 // A signal of the cell has changed.
 struct SignalChanged {
   std::string signal;                // name
@@ -200,9 +205,10 @@ struct Interrupt {
 // The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
-using Input = std::variant<Submit, StartRecorded, ActionsDone, Cancel, Amend, Replan, Judged,
-                           PlanMade, MotionReport, Refused, Stop, Resume, Located, Unlocated,
-                           SceneChanged, SetSpeed, SignalChanged, ChangePolicy, Interrupt, Wake>;
+using Input =
+    std::variant<Submit, StartRecorded, ActionsDone, Cancel, Amend, Replan, Judged, PlanMade,
+                 MotionReport, Refused, Stop, Resume, Located, Unlocated, SceneChanged, SetSpeed,
+                 SetBrake, SignalChanged, ChangePolicy, Interrupt, Wake>;
 
 // ---- Effects: what the caller must do now, in this order. ----
 

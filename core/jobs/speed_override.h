@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -10,9 +11,10 @@
 namespace armloom {
 
 // Speed override: the largest share, 0 to 1, of the planned rate of motions. An operator sets one
-// share for the cell and one for each arm. An arm goes at cell share x arm share, but if neither is
-// 0, at kSmallestShare or more. A motion of several arms goes at the smallest share of its arms, so
-// that they keep in step.
+// share for the cell and one for each arm. What an arm holds gives a third one, the square root of
+// the brake that it keeps (core/model/payload.h). An arm goes at the product, but if none is 0, at
+// kSmallestShare or more. A motion of several arms goes at the smallest share of its arms, so that
+// they keep in step.
 //
 // Also keeps the motion clock, by which backlog timeouts and aging are measured. It runs at the
 // smallest share of all arms, so that no job expires because its blocker was slowed down. It equals
@@ -25,7 +27,7 @@ class SpeedOverride {
     return share == 0.0 || (share >= kSmallestShare && share <= 1.0);
   }
 
-  explicit SpeedOverride(std::size_t arms) : arms_(arms, 1.0) {}
+  explicit SpeedOverride(std::size_t arms) : arms_(arms, 1.0), brakes_(arms, 1.0) {}
 
   // Sets the share of the arm, or of the cell. Precondition: is_valid(share); `now` never
   // decreases.
@@ -35,10 +37,16 @@ class SpeedOverride {
     (arm ? arms_[arm->index()] : cell_) = share;
   }
 
+  // The arm keeps this share, above 0, of its brake from now on.
+  void set_brake(ArmId arm, double share) { brakes_[arm.index()] = share; }
+
   [[nodiscard]] double cell() const { return cell_; }
+  [[nodiscard]] double brake(ArmId arm) const { return brakes_[arm.index()]; }
   [[nodiscard]] double arm(ArmId arm) const { return arms_[arm.index()]; }
   // Return the share at which the arm, or a motion of these arms, goes.
-  [[nodiscard]] double effective(ArmId arm) const { return product(cell_, arms_[arm.index()]); }
+  [[nodiscard]] double effective(ArmId arm) const {
+    return product(product(cell_, arms_[arm.index()]), std::sqrt(brakes_[arm.index()]));
+  }
   [[nodiscard]] double effective(const std::vector<ArmId>& arms) const {
     double smallest = 1.0;
     for (const ArmId arm : arms) smallest = std::min(smallest, effective(arm));
@@ -72,9 +80,10 @@ class SpeedOverride {
   [[nodiscard]] double slowest() const { return product(cell_, std::ranges::min(arms_)); }
 
   double cell_ = 1.0;
-  std::vector<double> arms_;  // ArmId
-  TimePoint since_{};         // last set()
-  TimePoint clock_{};         // the motion clock then
+  std::vector<double> arms_;    // ArmId
+  std::vector<double> brakes_;  // ArmId
+  TimePoint since_{};           // last set()
+  TimePoint clock_{};           // the motion clock then
 };
 
 }  // namespace armloom

@@ -48,6 +48,13 @@ void StateWriter::set_speed(const SetSpeed& input) {
   ++state_.changes_;
 }
 
+void StateWriter::set_brake(const SetBrake& input) {
+  if (input.share == state_.speed.brake(input.arm)) return;
+  state_.speed.set_brake(input.arm, input.share);
+  state_.expected.spoil();
+  ++state_.changes_;
+}
+
 void StateWriter::set_signal(const SignalChanged& input) {
   const SignalChanged before = std::exchange(state_.around.signals[input.signal], input);
   for (const Step& step : state_.jobs.of(state_.jobs.active())) {

@@ -123,6 +123,7 @@ class StateWriter {
   // Precondition: no motion is admitted.
   void change_policy(std::shared_ptr<const Policy> policy);
   void set_speed(const SetSpeed& input);
+  void set_brake(const SetBrake& input);
   // Makes open answers stale if a job may start now, or may start no longer.
   void set_signal(const SignalChanged& input);
   void set_round(Round round) { state_.round = std::move(round); }

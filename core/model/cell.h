@@ -87,6 +87,7 @@ struct Arm {
   std::map<std::string, Eigen::VectorXd> named_states;  // from the SRDF
   // States of the SRDF that give positions of gripper joints only ("open").
   std::map<std::string, std::map<JointId, double>> gripper_states = {};
+  std::optional<PayloadDescription> payload = {};
 };
 
 struct Robot {
@@ -108,6 +109,7 @@ struct CollisionObject {
   std::string name;
   Shape shape;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  Mass mass = {};
 };
 
 // A pair of links, the smaller id first.

@@ -34,6 +34,22 @@ inline constexpr double kDefaultVelocity = 1.0;  // for joints in no arm's group
 inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
+// How much an arm may carry, and how it brakes then.
+struct PayloadDescription {
+  inline static constexpr NumberRange mass_range{0.0, 1e5, true};
+  inline static constexpr NumberRange brake_range{0.05, 1.0};
+  inline static constexpr NumberRange lever_range{0.0, 100.0, true};
+
+  double max_kg = 1.0;
+  // The share of its limits of brake and acceleration that the arm keeps with max_kg.
+  double brake_at_max = 1.0;
+  // The center of mass may be this far (m) from the origin of the link that carries the object. A
+  // mass farther away counts as more, in proportion.
+  double lever_m = 0.1;
+
+  bool operator==(const PayloadDescription&) const = default;
+};
+
 struct ArmDescription {
   std::string name;   // unique in the cell
   std::string group;  // SRDF group that forms the arm
@@ -45,6 +61,7 @@ struct ArmDescription {
   // Start positions (rad, m) of gripper joints by URDF name. Other gripper joints start at zero,
   // clamped to their limits.
   std::map<std::string, double> gripper = {};
+  std::optional<PayloadDescription> payload = {};
 };
 
 // Permitted values are declared next to each setting, as <setting>_range. The cell file reader, its
@@ -94,10 +111,21 @@ struct RobotDescription {
   ControllerDescription controller;
 };
 
+// Mass of an object. `center`: the center of mass in the object's frame (m).
+struct Mass {
+  inline static constexpr NumberRange range{0.0, 1e5};
+
+  double kg = 0.0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+
+  bool operator==(const Mass&) const = default;
+};
+
 struct ObjectDescription {
   std::string name;
   Shape shape;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  Mass mass = {};
 };
 
 struct CheckingSettings {

@@ -25,7 +25,7 @@ void EarliestRest::observe(const ArmObservation& now) {
   } else if (elapsed) {
     before_ = std::min(last_, now.commanded);
     const double rate = to_seconds(now.commanded - last_) / to_seconds(*elapsed);
-    rate_ = std::clamp(rate, 0.0, 1.0);
+    rate_ = std::clamp(rate / std::sqrt(now.brake), 0.0, 1.0);
   }
   last_ = now.commanded;
   last_at_ = now.reported;

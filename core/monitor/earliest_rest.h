@@ -24,7 +24,8 @@ class EarliestRest {
   RateLaw law_;
   TrajectoryPtr motion_;
   Duration reach_{};
-  // The commanded progress of the last two reports, and the mean rate between them.
+  // The commanded progress of the last two reports, and the mean rate between them; with a payload,
+  // the rate from which an arm with empty hands stops within the same distance.
   Duration before_{}, last_{};
   ReportTime last_at_;
   double rate_ = 0.0;

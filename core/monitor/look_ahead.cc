@@ -71,8 +71,9 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
     // Progress at the highest rate until the brake takes effect. The way of a brake grows with the
     // square of the rate.
     const Duration commanded = std::max(now.commanded, now.measured);
+    const double brakes = std::min(1.0, highest * highest / now.brake);
     const Duration way = from_seconds(highest * to_seconds(reaction) +
-                                      highest * highest * to_seconds(premises.stopping_reach(arm)));
+                                      brakes * to_seconds(premises.stopping_reach(arm)));
     brakes_to = now.rests ? reach.from : std::min(end, commanded + way);
     if (now.brakes && now.rests_at) {
       brakes_to = std::clamp(*now.rests_at, reach.from, now.motion->duration());
@@ -112,8 +113,8 @@ LookAhead::ArmReach LookAhead::reach_of(ArmId arm, const Observation& seen,
       const auto j = static_cast<Eigen::Index>(joint.index());
       const double speed =
           std::min(std::abs(off.velocity[j]), PremiseCheck::velocity_limit(*cell_, joint));
-      const double more =
-          speed * to_seconds(reaction) + speed * speed / (2.0 * cell_->joint(joint).brake);
+      const double more = speed * to_seconds(reaction) +
+                          speed * speed / (2.0 * now.brake * cell_->joint(joint).brake);
       reach.shift[j] = off.shift[j] + std::copysign(0.5 * more, off.velocity[j]);
       reach.error[j] = 0.5 * more;
       if (more > 0.0) result.is_still = false;

@@ -35,6 +35,7 @@ struct ArmObservation {
   Duration authority{};      // largest permitted progress
   std::uint64_t starts = 0;  // counts starts and resumes: before each, the arm rested
   double speed = 1.0;        // speed override: largest share of the planned rate
+  double brake = 1.0;        // share of the brake that it keeps with what it holds
   // False while the arm waits for its start, moves or brakes.
   bool rests = true;
   bool brakes = false;      // it comes to rest and has no other command

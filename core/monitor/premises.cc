@@ -222,15 +222,17 @@ void PremiseCheck::check_path(ArmId arm, const Observation& seen,
 }
 
 // Returns the longest time from the acknowledgment of a brake until the arm stands. A brake from
-// the planned rate takes at most twice the stopping reach. Then the arm follows its commands until
-// the lag has died out. Without a motion, each joint may have its largest velocity.
-Duration PremiseCheck::stopping_time(ArmId arm, bool has_motion) const {
+// the planned rate takes at most twice the stopping reach; with a payload, it takes longer. Then
+// the arm follows its commands until the lag has died out. Without a motion, each joint may have
+// its largest velocity.
+Duration PremiseCheck::stopping_time(ArmId arm, bool has_motion, double brake) const {
   const ControllerDescription& controller = cell_->robots[cell_->arm(arm).robot.index()].controller;
   Duration braking = has_motion ? 2 * stopping_reach(arm) : Duration{};
   for (const JointId joint : joints(arm)) {
     const double brake_s = velocity_limit(*cell_, joint) / cell_->joint(joint).brake;
     if (!has_motion) braking = std::max(braking, from_seconds(brake_s));
   }
+  braking = from_seconds(to_seconds(braking) / (has_motion ? std::sqrt(brake) : brake));
   return controller.reaction + controller.feedback_period + kSettles * controller.lag + braking;
 }
 
@@ -245,7 +247,7 @@ void PremiseCheck::check_stop(ArmId arm, const Observation& seen,
   }
   bool moves = false;
   Duration told = seen.time - *now.braking_since;
-  const Duration limit = stopping_time(arm, !rests);
+  const Duration limit = stopping_time(arm, !rests, now.brake);
   if (state.braking_since != now.braking_since) {
     state.braking_since = now.braking_since;
     state.after_brake.begin(*now.braking_since + limit);
@@ -341,7 +343,7 @@ void PremiseCheck::check_rest(ArmId arm, const Observation& seen,
   // An arm that was stopped before may be moved by a person.
   if (found.size() == before || now.is_stopped) return;
   state.braked_at = seen.time;
-  state.moves_on.begin(seen.time + stopping_time(arm, false));
+  state.moves_on.begin(seen.time + stopping_time(arm, false, seen.arms[arm.index()].brake));
 }
 
 std::optional<MonitorFinding> PremiseCheck::finished(ArmId arm, const Trajectory& motion,

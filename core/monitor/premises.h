@@ -95,7 +95,7 @@ class PremiseCheck {
                     std::vector<MonitorFinding>& found);
   void check_path(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void check_rest(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
-  [[nodiscard]] Duration stopping_time(ArmId arm, bool has_motion) const;
+  [[nodiscard]] Duration stopping_time(ArmId arm, bool has_motion, double brake) const;
   void check_stop(ArmId arm, const Observation& seen, std::vector<MonitorFinding>& found);
   void begin_motion(ArmId arm, const Observation& seen);
   void begin_rest(ArmId arm, const Observation& seen);

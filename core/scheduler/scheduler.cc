@@ -98,6 +98,7 @@ void take(Transitions& state, const ActionsDone& input) {
   state.jobs().set(*step, with(*step->job, &Job::awaits_actions, false));
 }
 void take(Transitions& state, const SetSpeed& input) { set_speed(state, input); }
+void take(Transitions& state, const SetBrake& input) { set_brake(state, input); }
 
 void take(Transitions& state, const SceneChanged& input) {
   state.change_scene();

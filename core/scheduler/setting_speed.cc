@@ -33,10 +33,9 @@ void renew_clocks(Transitions& state, const Step& step, bool rested) {
   state.jobs().set(step, next);
 }
 
-void set_speed(Transitions& state, const SetSpeed& input) {
-  if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
-  const SpeedOverride before = state->speed;
-  state.set_speed(input);
+namespace {
+
+void speed_has_changed(Transitions& state, const SpeedOverride& before) {
   for (const Step& step : state->jobs.past_queue_now()) {
     const auto& arms = step.trajectory->arms();
     if (before.effective(arms) == state->speed.effective(arms)) continue;
@@ -48,6 +47,21 @@ void set_speed(Transitions& state, const SetSpeed& input) {
   prepare_choice(state, {});
   renew_starts(state);
   compare_again(state);
+}
+
+}  // namespace
+
+void set_speed(Transitions& state, const SetSpeed& input) {
+  if (!SpeedOverride::is_valid(input.share)) throw std::invalid_argument("SetSpeed: wrong share");
+  const SpeedOverride before = state->speed;
+  state.set_speed(input);
+  speed_has_changed(state, before);
+}
+
+void set_brake(Transitions& state, const SetBrake& input) {
+  const SpeedOverride before = state->speed;
+  state.set_brake(input);
+  speed_has_changed(state, before);
 }
 
 void explain_again(Transitions& state, const std::vector<ArmId>& arms) {

@@ -12,6 +12,7 @@ void renew_clocks(Transitions& state, const Step& step, bool rested);
 // time is renewed: times of overrun, paces, predictions and scheduled starts. Under policies
 // without passing orders, all motions under way are checked again.
 void set_speed(Transitions& state, const SetSpeed& input);
+void set_brake(Transitions& state, const SetBrake& input);
 
 // Call when jobs of the arms may have a new answer to operator_wait().
 void explain_again(Transitions& state, const std::vector<ArmId>& arms);

@@ -168,6 +168,7 @@ Scheduler with_arms_at(const Scheduler& present, const CellPtr& cell,
   for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {
     const ArmId arm{a};
     if (speed.arm(arm) != 1.0) (void)scheduler.step(SetSpeed{arm, speed.arm(arm)}, now);
+    if (speed.brake(arm) != 1.0) (void)scheduler.step(SetBrake{arm, speed.brake(arm)}, now);
     if (const auto& stop = present.state().arms.stop_of(arm)) {
       (void)scheduler.step(Stop({{arm, stop->cause, stop->until_connected}}), now);
     }

@@ -287,7 +287,7 @@ void RobotHost::obey(const ServerMessage& message) {
     });
   } else if (const auto* speed = std::get_if<Numbered<SetSpeedMessage>>(&message)) {
     to_arm(*speed, [&](HostedArm& arm) {
-      arm.obey(speed->number, ArmCommand::SetSpeed{speed->what.share});
+      arm.obey(speed->number, ArmCommand::SetSpeed{speed->what.share, speed->what.brake});
     });
   } else {
     const auto& release = std::get<Numbered<ReleaseMessage>>(message);

@@ -117,6 +117,21 @@ PartPtr<ArmDescription> home_part() {
       });
 }
 
+FormatPtr<PayloadDescription> payload_format() {
+  using Payload = PayloadDescription;
+  return object<Payload>({
+      required("max_kg", &Payload::max_kg, number(Payload::mass_range),
+               "Largest mass that the arm may hold, in kilograms."),
+      field("brake_at_max", &Payload::brake_at_max, number(Payload::brake_range),
+            "Share of the limits of braking and acceleration that the arm keeps with this mass. "
+            "With less mass it keeps more, in proportion. The arm moves at the square root of its "
+            "share, so that it stops within the same distance as with empty hands."),
+      field("lever_m", &Payload::lever_m, number(Payload::lever_range),
+            "How far the center of mass may be from the origin of the link that carries the "
+            "object, in meters. A mass farther away counts as more, in proportion."),
+  });
+}
+
 FormatPtr<ArmDescription> arm_description_format() {
   return object<ArmDescription>({
       required("name", &ArmDescription::name, name(), "Name of the arm; unique in the cell."),
@@ -127,6 +142,9 @@ FormatPtr<ArmDescription> arm_description_format() {
             "Start positions of the gripper's joints (rad, m), by joint name without prefix. "
             "Default: each joint at zero, or at the limit closest to zero. Jobs can move these "
             "joints."),
+      field("payload", &ArmDescription::payload, payload_format(),
+            "What the arm may carry. With an object of a mass the arm brakes less, so it moves "
+            "slower. Default: the arm holds only objects without a mass."),
       field("limits", &ArmDescription::limits, dictionary(limits_format()),
             "Limits of joints of the arm and its gripper, by joint name without prefix. These "
             "limits take precedence over joint_limits and the URDF."),

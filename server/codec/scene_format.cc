@@ -54,6 +54,19 @@ PartList<ShapeWords> primitives() {
   };
 }
 
+struct MassWords {
+  std::optional<double> kg;
+  std::optional<Eigen::Vector3d> center;
+};
+
+MassWords mass_in_words(const Mass& mass) {
+  return mass == Mass{} ? MassWords{} : MassWords{mass.kg, mass.center};
+}
+
+Mass mass_of_words(const MassWords& words) {
+  return {words.kg.value_or(0.0), words.center.value_or(Eigen::Vector3d::Zero())};
+}
+
 PartPtr<Shape> shape_part() {
   PartList<ShapeWords> parts = primitives();
   parts.add({field("mesh", &ShapeWords::mesh, path(),
@@ -88,12 +101,25 @@ PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
       pose_in_words, pose_of_words);
 }
 
+PartPtr<Mass> mass_part() {
+  PartList<MassWords> parts = {
+      field("mass_kg", &MassWords::kg, number(Mass::range),
+            "Mass, in kilograms. An arm that holds the object moves slower (`payload` of the arm). "
+            "Default: light enough not to matter."),
+      only_with("mass_kg", &MassWords::kg,
+                field("center_of_mass_m", &MassWords::center, vector3(kPosition),
+                      "Center of mass in the object's frame, in meters.", Schema{0, 0, 0})),
+  };
+  return spelt(parts, mass_in_words, mass_of_words);
+}
+
 FormatPtr<ObjectDescription> scene_object_format() {
   static const FormatPtr<ObjectDescription> format = object<ObjectDescription>({
       required("name", &ObjectDescription::name, name(),
                "Name of the object; unique in the cell, and not the name of a link or robot."),
       inlined(&ObjectDescription::shape, shape_part()),
       inlined(&ObjectDescription::X_WO, pose_part()),
+      inlined(&ObjectDescription::mass, mass_part()),
   });
   return format;
 }

@@ -15,7 +15,9 @@ namespace armloom {
     formats::Need xyz = formats::Need::optional);
 // Describes a box, a cylinder or a sphere: an object must have exactly one of these members.
 [[nodiscard]] formats::PartPtr<Shape> primitive_part();
-// Describes an object of the scene by name, shape and pose.
+// Describes `mass_kg` and `center_of_mass_m` of an object.
+[[nodiscard]] formats::PartPtr<Mass> mass_part();
+// Describes an object of the scene by name, shape, pose and mass.
 [[nodiscard]] FormatPtr<ObjectDescription> scene_object_format();
 
 }  // namespace armloom

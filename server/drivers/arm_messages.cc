@@ -64,7 +64,11 @@ PartPtr<BrakeMessage> brake_part() {
 }
 PartPtr<ReleaseMessage> release_part() { return parts<ReleaseMessage>({}); }
 PartPtr<SetSpeedMessage> set_speed_part() {
-  return always("share", &SetSpeedMessage::share, number(kZeroToOne));
+  return parts<SetSpeedMessage>({
+      always("share", &SetSpeedMessage::share, number(kZeroToOne)),
+      omit_default("brake", &SetSpeedMessage::brake, 1.0, number(PayloadDescription::brake_range),
+                   ""),
+  });
 }
 
 template <class What>
@@ -295,7 +299,7 @@ ServerMessage message_of(const ArmCommand& command, const Cell& cell, const std:
         } else if constexpr (std::is_same_v<What, ArmCommand::Brake>) {
           return Numbered<BrakeMessage>{arm, command.number, {static_cast<int>(what.category)}};
         } else if constexpr (std::is_same_v<What, ArmCommand::SetSpeed>) {
-          return Numbered<SetSpeedMessage>{arm, command.number, {what.share}};
+          return Numbered<SetSpeedMessage>{arm, command.number, {what.share, what.brake}};
         } else {
           return Numbered<ReleaseMessage>{arm, command.number, {}};
         }

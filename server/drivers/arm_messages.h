@@ -87,6 +87,7 @@ struct BrakeMessage {
 struct ReleaseMessage {};
 struct SetSpeedMessage {
   double share = 1.0;
+  double brake = 1.0;
 };
 // A command to one arm.
 template <class What>

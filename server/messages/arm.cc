@@ -47,8 +47,8 @@ PartPtr<ArmView> arm_speed_part() {
                 "Speed override of this arm: largest share of the planned speed; absent in old "
                 "recordings"),
       output_if("effective_speed_override", effective, number({0.0, 1.0}),
-                "Override at which the arm moves: cell's override x this arm's. The arms of one "
-                "motion all move at the smallest of theirs"),
+                "Override at which the arm moves: cell's override x this arm's x what its payload "
+                "leaves. The arms of one motion all move at the smallest of theirs"),
   });
 }
 

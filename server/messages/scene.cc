@@ -44,6 +44,7 @@ FormatPtr<ObjectDescription> make_object_format(Need name) {
                                      "keeps the meshes of the cell file if they are left out"}),
       unless("mesh", inlined(&ObjectDescription::shape, primitive_part())),
       inlined(&ObjectDescription::X_WO, pose_part()),
+      inlined(&ObjectDescription::mass, mass_part()),
   });
 }
 
@@ -52,10 +53,10 @@ class CollisionObjectFormat final : public CustomFormat<CollisionObject> {
   void read(const JsonNode& node, CollisionObject& object) const override {
     ObjectDescription description;
     object_request_format()->read(node, description);
-    object = {std::move(description.name), description.shape, description.X_WO};
+    object = {std::move(description.name), description.shape, description.X_WO, description.mass};
   }
   void write(JsonWriter& out, const CollisionObject& object) const override {
-    ObjectDescription description{object.name, object.shape, object.X_WO};
+    ObjectDescription description{object.name, object.shape, object.X_WO, object.mass};
     if (auto* mesh = std::get_if<Mesh>(&description.shape)) mesh->path = mesh_address(mesh->path);
     scene_object_format()->write(out, description);
   }
@@ -173,7 +174,7 @@ Result<ReadScene> read_scene_text(std::string_view text) {
   ReadScene scene{{}, {}, request.version, request.expires_in};
   std::vector<CollisionObject> objects;
   for (ObjectDescription& object : request.objects) {
-    objects.push_back({std::move(object.name), object.shape, object.X_WO});
+    objects.push_back({std::move(object.name), object.shape, object.X_WO, object.mass});
   }
   scene.objects = std::make_shared<const std::vector<CollisionObject>>(std::move(objects));
   for (const auto& object : body->at("objects")) scene.texts.push_back(object.dump());
@@ -205,7 +206,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
     });
   }
   if (!faults.empty()) return failure(std::move(faults));
-  return CollisionObject{std::move(object.name), object.shape, object.X_WO};
+  return CollisionObject{std::move(object.name), object.shape, object.X_WO, object.mass};
 }
 
 FormatPtr<CollisionObject> object_format() {

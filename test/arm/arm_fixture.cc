@@ -190,7 +190,7 @@ AccelerationGauge::AccelerationGauge(const Cell& cell, TrajectoryPtr trajectory)
   }
 }
 
-void AccelerationGauge::observe(const ArmFeedback& feedback, bool may_brake) {
+void AccelerationGauge::observe(const ArmFeedback& feedback, bool may_brake, double brake) {
   const double tick_s = to_seconds(kControlPeriod);
   before_.swap(last_);
   last_.swap(now_);
@@ -201,7 +201,7 @@ void AccelerationGauge::observe(const ArmFeedback& feedback, bool may_brake) {
     const Eigen::ArrayXd found =
         (now_ - 2.0 * last_ + before_).array().abs() / (tick_s * tick_s) - rounding;
     const Eigen::VectorXd& limit = may_brake || braked_before_ ? brake_ : acceleration_;
-    worst_share_ = std::max(worst_share_, (found / limit.array()).maxCoeff());
+    worst_share_ = std::max(worst_share_, (found / (brake * limit.array())).maxCoeff());
   }
   braked_before_ = may_brake;
 }

@@ -44,7 +44,9 @@ struct Commander {
   void brake(StopCategory category = StopCategory::brake) {
     controller.send({++number, ArmCommand::Brake{category}});
   }
-  void set_speed(double share) { controller.send({++number, ArmCommand::SetSpeed{share}}); }
+  void set_speed(double share, double brake = 1.0) {
+    controller.send({++number, ArmCommand::SetSpeed{share, brake}});
+  }
   void release() { controller.send({++number, ArmCommand::Release{}}); }
 
   ArmController& controller;
@@ -79,7 +81,8 @@ struct Bench {
 class AccelerationGauge {
  public:
   AccelerationGauge(const Cell& cell, TrajectoryPtr trajectory);
-  void observe(const ArmFeedback& feedback, bool may_brake);
+  // `brake`: the share of the limits that the arm keeps.
+  void observe(const ArmFeedback& feedback, bool may_brake, double brake = 1.0);
   void restart() { known_ = 0; }  // the next positions do not continue the last ones
   [[nodiscard]] double worst_share() const { return worst_share_; }
 

@@ -42,6 +42,32 @@ TEST(SpeedOverrideOfArm, RateChangesWithinTheJointLimitsAndAuthorityIsKept) {
   }
 }
 
+// Returns where the arm rests after a brake in full motion.
+Duration stopped_with(double brake, std::uint64_t seed) {
+  Example e({}, seed);
+  AccelerationGauge gauge(*e.cell, e.trajectory);
+  e.bench.command.set_speed(std::sqrt(brake), brake);
+  e.start_now();
+  const Duration half = e.trajectory->duration() / 2;
+  const auto tick = [&] {
+    gauge.observe(e.bench.tick(), true, brake);
+    return e.bench.arm.state();
+  };
+  while (tick().commanded_progress < half) continue;
+  e.bench.command.brake();
+  while (tick().phase != Phase::stopped) continue;
+  EXPECT_LE(gauge.worst_share(), 1.0 + e.cell->checking.limit_tolerance);
+  return e.bench.arm.state().commanded_progress;
+}
+
+TEST(Payload, TheArmKeepsWhatIsLeftOfItsLimitsAndStopsWhereItDoesWithEmptyHands) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const double empty_s = to_seconds(stopped_with(1.0, seed));
+    EXPECT_NEAR(to_seconds(stopped_with(0.25, seed)), empty_s, 2e-3);
+  }
+}
+
 TEST(SpeedOverrideOfArm, MotionAtATenthTakesTenTimesAsLong) {
   Example e;
   e.bench.command.set_speed(0.1);

@@ -50,7 +50,7 @@ class FaultRun {
       robot.controller.noise_rad = 0.1 * description.checking.tracking_error_rad;
       robot.controller.lag = from_seconds(random_.uniform(0.0, 0.05));
     }
-    if (plan.tasks) RandomTasks::add_signals(description);
+    if (plan.tasks) RandomTasks::equip(description);
     auto cell = build_cell(description);
     if (!cell) throw std::runtime_error(cell.error().front().detail);
     cell_ = *cell;

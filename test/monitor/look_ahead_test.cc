@@ -45,6 +45,24 @@ TEST(LookAhead, StopsAnArmWhenTheNextPeriodWouldBeTooLate) {
   EXPECT_GT(to_seconds(reach.braking.to) + to_seconds(kPeriod), 1.49) << "and not too early";
 }
 
+// The brake of an arm with a payload is weaker. The rate at which the arm goes makes up for it.
+TEST(LookAhead, ExpectsALongerWayOfAnArmWithAPayload) {
+  Ahead empty(1), half(1), loaded(1);
+  for (Ahead* ahead : {&empty, &half, &loaded}) {
+    const bool is_slow = ahead != &empty;
+    ahead->seen.arms[0].brake = ahead == &loaded ? 0.25 : 1.0;
+    for (int i = 0; i < 3; ++i) {
+      ahead->on_path(0, 500ms + (i - 2) * (is_slow ? kPeriod / 2 : kPeriod));
+      (void)ahead->look();
+    }
+  }
+  const auto way = [](Ahead& ahead) {
+    return to_seconds(ahead.ahead.reach_of(ArmId{0}, ahead.seen, ahead.premises, true).braking.to);
+  };
+  EXPECT_LT(way(half), way(loaded) - 0.02);
+  EXPECT_LE(way(loaded), way(empty));
+}
+
 TEST(LookAhead, StopsOneOfTwoArmsIfThatIsEnough) {
   Ahead a(2);
   // Both reaches overlap only in their last 5 ms.

@@ -14,19 +14,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kPart_m = 0.03;  // radius of a part
-constexpr double kBall_m = 0.1;   // radius of a slider's ball
-constexpr double kGap_m = 0.004;  // between a hand and its part
-constexpr double kStep_m = 0.01;  // of the search for places of a handover
+constexpr double kPart_m = 0.03;   // radius of a part
+constexpr double kBall_m = 0.1;    // radius of a slider's ball
+constexpr double kGap_m = 0.004;   // between a hand and its part
+constexpr double kHeavy_kg = 1.2;  // more for each arm
+constexpr double kStep_m = 0.01;   // of the search for places of a handover
 constexpr double kWithin_m = 0.015;
 
 std::string name_of(std::size_t part) { return "part_" + std::to_string(part); }
 
 }  // namespace
 
-void RandomTasks::add_signals(CellDescription& cell) {
+void RandomTasks::equip(CellDescription& cell) {
   cell.io.signals = {{.name = "valve", .direction = SignalDirection::output},
                      {.name = "ready", .direction = SignalDirection::input}};
+  for (RobotDescription& robot : cell.robots) {
+    for (ArmDescription& arm : robot.arms) arm.payload = PayloadDescription{4.0, 0.4, 0.5};
+  }
 }
 
 RandomTasks::RandomTasks(const Cell& cell, Random& random, RandomJobs& jobs,
@@ -61,6 +65,7 @@ void RandomTasks::place_parts() {
       const std::vector<double> q = jobs_.anywhere(jobs_.arms()[arm]);
       const double turned = random_.uniform(0.0, 2.0 * std::numbers::pi);
       CollisionObject part{.name = name_of(arm), .shape = Sphere{kPart_m}};
+      part.mass.kg = kHeavy_kg * static_cast<double>(arm);
       part.X_WO = hand_at(arm, q);
       Eigen::Vector3d beside = part.X_WO.linear() * Eigen::Vector3d(0.0, 0.0, 0.12);
       if (slides) {

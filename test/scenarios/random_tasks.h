@@ -13,12 +13,12 @@
 
 namespace armloom {
 
-// Random jobs with steps: each arm has a part, which it picks, carries, places and hands over. The
-// steps also wait, set outputs and wait for an input.
+// Random jobs with steps: each arm has a part, which it picks, carries, places and hands over. All
+// parts but the first are heavy. The steps also wait, set outputs and wait for an input.
 class RandomTasks {
  public:
-  // Adds the signals that the tasks use.
-  static void add_signals(CellDescription& cell);
+  // Adds what the tasks use: signals, and what the arms can carry.
+  static void equip(CellDescription& cell);
   // `random` and `jobs` outlive this object, and so does the cell's executive.
   RandomTasks(const Cell& cell, Random& random, RandomJobs& jobs,
               std::function<Executive&()> executive);

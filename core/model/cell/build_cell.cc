@@ -232,7 +232,7 @@ void copy_settings(const CellDescription& description, Cell& cell) {
   cell.execution = description.execution;
   cell.io = description.io;
   for (const auto& object : description.objects)
-    cell.objects.push_back({object.name, object.shape, object.X_WO});
+    cell.objects.push_back({object.name, object.shape, object.X_WO, object.mass});
   for (const auto& robot : description.robots) {
     cell.robots.push_back({.name = robot.name,
                            .prefix = robot.prefix,

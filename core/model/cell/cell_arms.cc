@@ -70,7 +70,9 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
             .gripper_joints = {},
             .links = {},
             .home = {},
-            .named_states = {}};
+            .named_states = {},
+            .gripper_states = {},
+            .payload = description.payload};
     for (const std::size_t index : *group) {
       if (!robot.joints[index]) continue;  // fixed
       const JointId joint_id = *robot.joints[index];

@@ -735,6 +735,14 @@ export interface components {
                 number,
                 number
             ];
+            /** @description Mass, in kilograms. An arm that holds the object moves slower (`payload` of the arm). Default: light enough not to matter. */
+            mass_kg?: number;
+            /** @description Center of mass in the object's frame, in meters. */
+            center_of_mass_m?: [
+                number,
+                number,
+                number
+            ];
         } & (unknown | unknown | unknown | unknown);
         CellJoint: {
             name: string;
@@ -992,7 +1000,7 @@ export interface components {
             stop_cause: string | null;
             /** @description Speed override of this arm: largest share of the planned speed; absent in old recordings */
             speed_override?: number;
-            /** @description Override at which the arm moves: cell's override x this arm's. The arms of one motion all move at the smallest of theirs */
+            /** @description Override at which the arm moves: cell's override x this arm's x what its payload leaves. The arms of one motion all move at the smallest of theirs */
             effective_speed_override?: number;
         };
         QueueIds: {

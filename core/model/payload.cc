@@ -1,0 +1,59 @@
+#include "core/model/payload.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace armloom {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+bool is_carried_by(const Cell& cell, const Attachment& held, ArmId arm) {
+  return cell.link(held.link).arm == arm;
+}
+
+}  // namespace
+
+double counted_mass(const Cell& cell, ArmId arm, std::span<const Attachment> held) {
+  const auto& payload = cell.arm(arm).payload;
+  double counted_kg = 0.0;
+  for (const Attachment& one : held) {
+    if (!payload || !is_carried_by(cell, one, arm)) continue;
+    const double lever_m = (one.X_LO * one.object.mass.center).norm();
+    counted_kg += one.object.mass.kg * std::max(1.0, lever_m / payload->lever_m);
+  }
+  return counted_kg;
+}
+
+double kept_brake(const Cell& cell, ArmId arm, std::span<const Attachment> held) {
+  const auto& payload = cell.arm(arm).payload;
+  if (!payload) return 1.0;
+  const double share = std::min(1.0, counted_mass(cell, arm, held) / payload->max_kg);
+  return 1.0 - share * (1.0 - payload->brake_at_max);
+}
+
+std::optional<Problem> find_overload(const Cell& cell, ArmId arm,
+                                     std::span<const Attachment> held) {
+  const Arm& carrier = cell.arm(arm);
+  if (!carrier.payload) {
+    const auto heavy = std::ranges::find_if(held, [&](const Attachment& one) {
+      return is_carried_by(cell, one, arm) && one.object.mass.kg > 0.0;
+    });
+    if (heavy == held.end()) return std::nullopt;
+    return Problem{ProblemKind::conflict, "payload-unknown", "",
+                   heavy->object.name + " has a mass, and arm " + carrier.name +
+                       " states no payload: add \"payload\" to the arm in the cell file, or leave "
+                       "\"mass_kg\" out of the object",
+                   heavy->object.mass.kg};
+  }
+  const double counted_kg = counted_mass(cell, arm, held);
+  if (counted_kg <= carrier.payload->max_kg * (1.0 + kRounding)) return std::nullopt;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                " would hold %.4g kg (masses beyond %.4g m from the hand count more), its payload "
+                "is %.4g kg: hold the object nearer to its center of mass, or use a stronger arm",
+                counted_kg, carrier.payload->lever_m, carrier.payload->max_kg);
+  return Problem{ProblemKind::conflict, "too-heavy", "", "arm " + carrier.name + text, counted_kg};
+}
+
+}  // namespace armloom
