@@ -88,14 +88,7 @@ void admit(Transitions& state, const std::vector<StepId>& steps,
 
 // It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
 void go_on(Transitions& state, const Step& step, const Verdict& verdict) {
-  std::vector<Wait> waits;
-  for (const PairRegions& pair : verdict.regions) {
-    const auto* arm = std::get_if<ArmId>(&pair.b);
-    if (arm == nullptr) continue;
-    const ConflictRegion& region = pair.regions.front();
-    waits.push_back(wait_for(
-        Blocker{step.id, std::nullopt, *arm, region.proximity, region.time_a, region.time_b}));
-  }
+  std::vector<Wait> waits = waits_for_rest(step, verdict);
   if (!waits.empty()) return put_off(state, step, std::move(waits));
   state.readmit(step);
   note_free(state, step);
@@ -201,11 +194,8 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
     }
     case Purpose::recheck: {
       const Step& step = state->jobs.at(question.steps.front());
-      if (input.verdict.kind == Verdict::Kind::free) {
-        note_free(state, step);
-      } else {  // it stays in question until it is found free, also if it has not moved
-        hold_back(state, step, input.verdict);
-      }
+      // It stays in question until it is found free, also if it has not moved.
+      if (!holds_back(state, step, input.verdict)) note_free(state, step);
       return;
     }
     case Purpose::option:

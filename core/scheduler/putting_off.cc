@@ -104,11 +104,27 @@ void refuse(Transitions& state, const Step& step, const Verdict& verdict) {
   if (auto waits = waits_for(state, step, verdict)) put_off(state, step, std::move(*waits));
 }
 
-void hold_back(Transitions& state, const Step& step, const Verdict& verdict) {
-  auto waits = waits_for(state, step, verdict);
-  if (!waits) return;
+std::vector<Wait> waits_for_rest(const Step& step, const Verdict& verdict) {
+  std::vector<Wait> waits;
+  for (const PairRegions& pair : verdict.regions) {
+    const auto* arm = std::get_if<ArmId>(&pair.b);
+    if (arm == nullptr) continue;
+    const ConflictRegion& region = pair.regions.front();
+    waits.push_back(wait_for(
+        Blocker{step.id, std::nullopt, *arm, region.proximity, region.time_a, region.time_b}));
+  }
+  return waits;
+}
+
+bool holds_back(Transitions& state, const Step& step, const Verdict& verdict) {
+  const bool is_free = verdict.kind == Verdict::Kind::free;
+  const auto waits =
+      is_free ? std::optional(waits_for_rest(step, verdict)) : waits_for(state, step, verdict);
+  if (!waits) return true;  // it has failed
+  if (waits->empty()) return false;
   state.brake(step, {});
   state.jobs().set_waits(step, *waits);
+  return true;
 }
 
 bool is_asked_again(Transitions& state, const Step& step, const Verdict& verdict) {

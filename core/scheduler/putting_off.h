@@ -8,7 +8,7 @@ namespace armloom {
 
 // Defers or fails a job that was checked and not admitted.
 
-// Precondition of all functions except hold_back(): the job waits.
+// Precondition of all functions except waits_for_rest() and holds_back(): the job waits.
 // Stores what the job was found to wait for, but does not publish it.
 void note_found(Transitions& state, const Step& step, std::vector<Wait> waits);
 // Defers the job because of these waits. Moves it to the backlog if it is the first of its arms.
@@ -24,8 +24,12 @@ void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outl
 [[nodiscard]] bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdict);
 // Defers the job because of the verdict's conflicts, or fails it (fails_by_itself()).
 void refuse(Transitions& state, const Step& step, const Verdict& verdict);
-// Brakes an admitted job that is in conflict after a change of the scene.
-void hold_back(Transitions& state, const Step& step, const Verdict& verdict);
+// Returns waits for the arms that rest in the path of the admitted job. No passing order holds it
+// for them.
+[[nodiscard]] std::vector<Wait> waits_for_rest(const Step& step, const Verdict& verdict);
+// Brakes an admitted job that is in conflict after a change of the scene, also with what an arm at
+// rest holds now. Returns false if the job is free.
+[[nodiscard]] bool holds_back(Transitions& state, const Step& step, const Verdict& verdict);
 
 // Returns true if the check exceeded its budget of evaluations and will be repeated with a larger
 // budget, after the jobs with smaller budgets. The number of repetitions is limited, so that an

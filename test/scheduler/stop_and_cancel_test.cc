@@ -212,6 +212,18 @@ TEST(Stop, CancelSurvivesASceneConflictDuringTheBrake) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
+// The arm at rest has taken an object into its hand.
+TEST(Stop, StopsAMotionInWhosePathAnArmRestsAfterAChangeOfTheScene) {
+  Running bench(1);
+  bench.step(SceneChanged{{ArmId{0}}}, at(510ms));
+  bench.answer_regions(
+      at(511ms),
+      {{only_step(bench.jobs[0]), ArmId{1}, {region(ProgressBox{800ms, 900ms, 0ms, 0ms})}}});
+  EXPECT_THAT(bench.braked, ElementsAre(bench.jobs[0]));
+  ASSERT_EQ(bench.job(bench.jobs[0]).waits_on.size(), 1U);
+  EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().arm, ArmId{1});
+}
+
 TEST(Resume, ContinuesPausedJobsInTheirPassingOrder) {
   OneBehindAnother two(ProgressBox{1s, 1500ms, 0ms, 1200ms});
   Bench& bench = two.bench;
