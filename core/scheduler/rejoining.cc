@@ -51,8 +51,7 @@ void rejoin(Transitions& state, ArmId arm) {
   const auto& queue = state->jobs.queues()[arm];
   if (queue.empty() || state->arms.is_stopped(arm)) return;
   const Step& step = state->jobs.at(queue.front());
-  const bool is_in_motion = step.in<Moving>() != nullptr || step.in<Braking>() != nullptr;
-  if (!step.has_started() || is_in_motion) return;
+  if (!step.has_started() || step.is_in_motion()) return;
   const OffPath off = nearest_on_path(state, arm, step);
   if (off.distance <= state->cell->execution.start_tolerance_rad) {
     const bool is_within = off.distance <= state->cell->tracking_error(state->cell->arm(arm).robot);

@@ -76,10 +76,7 @@ void take(Transitions& state, const Unlocated& input) {
 void take(Transitions& state, const Located& input) {
   explain_again(state, state.arms().set_located(input.arm));
   const auto& queue = state->jobs.queues()[input.arm];
-  const Step* head = queue.empty() ? nullptr : &state->jobs.at(queue.front());
-  const bool is_in_motion =
-      head != nullptr && (head->in<Moving>() != nullptr || head->in<Braking>() != nullptr);
-  if (is_in_motion) return;
+  if (!queue.empty() && state->jobs.at(queue.front()).is_in_motion()) return;
   state.locate(input);
   decide_again_beside(state, input.arm);
   rejoin(state, input.arm);
@@ -300,9 +297,7 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const auto& queue = state_->jobs.queues()[arm];
   if (queue.empty()) return std::nullopt;
   const Step& head = state_->jobs.at(queue.front());
-  const bool in_motion =
-      head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
-  return in_motion ? std::optional(head.id.job) : std::nullopt;
+  return head.occupies_its_arms() ? std::optional(head.id.job) : std::nullopt;
 }
 
 void Scheduler::forget(JobId ended) {
