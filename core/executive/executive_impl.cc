@@ -271,8 +271,7 @@ TimePoint Executive::Impl::settled_until() const {
 // ---- The guard ----
 
 void Executive::Impl::follow_policy() {
-  const CheckMethod method = scheduler_.policy().method;
-  const bool certified = !std::holds_alternative<TimedDiscrete>(method);
+  const bool certified = scheduler_.policy().has_orders();
   execution_.gate().set_certified(certified);
   if (certified) return;
   publisher_.tell(Alert{Alert::Level::info, "policy " + std::string(scheduler_.policy().name) +

@@ -14,10 +14,6 @@ constexpr Duration kEvery = std::chrono::milliseconds(250);
 // Who has stood for so long is not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
-bool has_no_orders(const State& state) {
-  return std::holds_alternative<TimedDiscrete>(state.policy->method);
-}
-
 }  // namespace
 
 std::vector<Duration> work_behind(const State& state, const std::vector<const Step*>& in_front) {
@@ -83,7 +79,7 @@ std::optional<TimePoint> weighs_next(const State& state) {
 }
 
 void compare_again(Transitions& state) {
-  if (!has_no_orders(state)) return;
+  if (state->policy->has_orders()) return;
   for (const Step& step : state->jobs.past_queue_now()) {
     state.jobs().put_in_question(step);
     const bool is_kept =
@@ -93,7 +89,7 @@ void compare_again(Transitions& state) {
 }
 
 void see_standing(Transitions& state) {
-  if (!has_no_orders(state)) return;
+  if (state->policy->has_orders()) return;
   bool is_news = false;
   for (const Step& step : state->jobs.past_queue()) {
     const auto* moving = step.in<Moving>();
@@ -108,7 +104,7 @@ void see_standing(Transitions& state) {
 }
 
 std::optional<TimePoint> stands_next(const State& state) {
-  if (!has_no_orders(state)) return std::nullopt;
+  if (state.policy->has_orders()) return std::nullopt;
   std::optional<TimePoint> next;
   for (const Step& step : state.jobs.past_queue()) {
     const auto* moving = step.in<Moving>();
