@@ -109,7 +109,7 @@ void fail_impossible_starts(Transitions& state) {
     const Step& head = state->jobs.at(queue.front());
     if (!head.is_waiting() || head.has_started() || !is_at_head(state, head)) continue;
     if (head.goal) continue;  // its way begins where the arm stands
-    if (awaits_signal_or_actions(state, head)) continue;
+    if (any_closed(state, head, defers_start)) continue;
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (head.job->is_held_over && state->arms.stop_of(head)) continue;
     auto mismatch = state->arms.start_mismatch(*state->cell, *head.trajectory);

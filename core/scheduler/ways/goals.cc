@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/joints_elsewhere.h"
@@ -47,7 +48,7 @@ bool is_found_in_the_way(const State& state, const Step& step, ArmId arm) {
 // Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
 // may yet go by another arm counts as if it did.
 std::optional<Configuration> at_its_turn(const State& state, const Step& step, const GoalWay& way) {
-  if (step.job->awaits_actions) return std::nullopt;  // they change what the arm holds
+  if (any_closed(state, step, blocks_plan)) return std::nullopt;
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
   const auto& queue = state.jobs.queues()[arm];
@@ -56,7 +57,7 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
   for (const Step& other : state.jobs.of(queue)) {
     if (before-- == 0 || other.id == step.id) break;
     if (other.has_open_arm()) continue;
-    if (other.is_unplanned() || other.job->awaits_actions) return std::nullopt;
+    if (other.is_unplanned() || any_closed(state, other, blocks_plan)) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
   }
   return at;
@@ -200,7 +201,7 @@ bool may_yet_find_a_path(const State& state, const Step& step, std::size_t place
   if (place == 0) return false;
   if (step.job->task) return true;
   return std::ranges::any_of(state.jobs.of(state.jobs.active()), [&](const Step& other) {
-    return other.job->awaits_actions && other.job->turn < step.job->turn;
+    return other.job->turn < step.job->turn && any_closed(state, other, blocks_plan);
   });
 }
 
