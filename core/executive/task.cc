@@ -85,7 +85,8 @@ const Task* TaskBook::find(JobId motion) const {
 }
 
 Task* TaskBook::find(JobId motion) {
-  return const_cast<Task*>(static_cast<const TaskBook&>(*this).find(motion));
+  const auto id = id_of_motion_.find(motion);
+  return id == id_of_motion_.end() ? nullptr : &tasks_.at(id->second);
 }
 
 JobId TaskBook::told(JobId job) const {
