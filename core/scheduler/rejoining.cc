@@ -9,8 +9,8 @@
 namespace armloom {
 namespace {
 
-// An arm of a motion of several arms may rest ahead of the job's progress: it is compared with the
-// path there, at points this far apart.
+// An arm of a team may rest ahead of the job's progress. It is compared with the path up to there,
+// at points this far apart.
 constexpr Duration kAheadStep = std::chrono::milliseconds(1);
 
 struct OffPath {
@@ -57,7 +57,7 @@ void rejoin(Transitions& state, ArmId arm) {
     const bool is_within = off.distance <= state->cell->tracking_error(state->cell->arm(arm).robot);
     if (is_within || off.distance <= step.off_path) return;
     state.jobs().set_off_path(step, off.distance);
-    // Its orders are for the regions of a motion that is nearer to its path.
+    // Its orders assume a motion that is nearer to its path.
     if (state->graph.holds(step.id)) state.withdraw(step, {});
     return;
   }

@@ -113,7 +113,7 @@ void take(Transitions& state, const ChangePolicy& input) {
 
 void take(Transitions& state, const Interrupt& input) { state.interrupt(input.keeps_waiting); }
 
-void take(Transitions&, const Wake&) {}  // what follows is all that it asks for
+void take(Transitions&, const Wake&) {}  // settle() does the work
 
 }  // namespace
 
@@ -172,7 +172,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   return state_.take_effects();
 }
 
-// The order of the rules after every input, with the reason for each place.
+// Runs all rules after an input. The comments give the reason for the place of each rule.
 void Scheduler::settle() {
   expire_and_overrun(state_);  // first, so that no other rule works for a job that ends now
   see_standing(state_);        // before authority is given, so that no motion passes unchecked
@@ -195,7 +195,8 @@ void Scheduler::settle() {
   look_ahead();
 }
 
-// Without anything else having happened. Where all goes as expected, the orders are not due.
+// Returns true if a rule must run although nothing else has happened. If all motions are as
+// predicted, the orders need not be chosen again.
 bool Scheduler::is_due() {
   if (deadline_ && *deadline_ <= state_->now) return true;
   if (!weighs_at_ || *weighs_at_ > state_->now) return false;
@@ -268,7 +269,7 @@ void Scheduler::on(const MotionReport& input) {
   }
 }
 
-// ---- What others read ----
+// ---- Queries ----
 
 bool Scheduler::has_turn_for_actions(JobId job) const {
   const Step* step = find(job);

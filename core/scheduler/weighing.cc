@@ -11,7 +11,7 @@ namespace armloom {
 namespace {
 
 constexpr Duration kEvery = std::chrono::milliseconds(250);
-// Who has stood for so long is not looked at any more.
+// Motions that have rested for longer are not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
 
 }  // namespace
@@ -55,8 +55,8 @@ void weigh_again(Transitions& state) {
   state.renew_orders(state->policy->decide(state->graph.question(nobody, nothing)));
 }
 
-// Who moves may be late. Who was stopped may stand for longer than expected, while another one
-// waits for it: that is looked at less and less often.
+// A moving motion may be late. A stopped motion may rest for longer than predicted while another
+// one waits for it; it is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
   if (!state.policy->lookahead.weighs_again) return std::nullopt;
   const auto job_of = [&](StepId step) -> const Step& { return state.jobs.at(step); };

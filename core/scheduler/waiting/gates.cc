@@ -69,7 +69,7 @@ Closed open_arm(const Look& look, const Step& step) {
 }
 
 void add_open_arm(const State& state, const Step& step, Edges& edges) {
-  if (!state.jobs.queues().is_first(step)) return;  // its arms will stand elsewhere by then
+  if (!state.jobs.queues().is_first(step)) return;  // by then its arms rest elsewhere
   if (const auto first = may_go_first(state, step)) edges.push_back({step.id.job, *first});
 }
 
@@ -125,7 +125,8 @@ Closed place(const Look& look, const Step& step) {
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
-// A round lets others in by itself while all of it stands: there a place is never part of a cycle.
+// Rounds add no edge: a round whose jobs all stand lets other jobs in, so its places close no
+// cycle.
 void add_place(const State& state, const Step& step, Edges& edges) {
   if (!step.is_waiting() || has_rounds(state)) return;
   const auto taken_by = place_taken_by(state, step);
@@ -149,8 +150,8 @@ bool may_go(const State& state, const Step& step) {
   return step.is_waiting() && !any_closed(state, step, stays);
 }
 
-// No way to its goal was found past where all others will rest. Once one of them is to rest
-// elsewhere, another way is sought (ways/goals.h): until all stand, what it waits for is not known.
+// Returns true if the job's plan goes through other arms and another job may still move. Its path
+// is then planned again (ways/goals.h), so its waits are not final.
 bool may_have_another_way(const State& state, const Step& step) {
   if (step.in<Queued>() == nullptr || !step.goal || !step.goal->way().goes_through) return false;
   return std::ranges::any_of(state.jobs.active(), [&](JobId id) {
@@ -174,7 +175,7 @@ void add_conflict(const State& state, const Step& step, Edges& edges) {
   }
 }
 
-// Without turns it is not known which jobs an aged job holds back: then all.
+// Without turns, an aged job holds back all others.
 Closed aging(const Look& look, const Step& step) {
   const auto old = look.turns != nullptr ? look.turns->held_back_by(step) : any_aged(look.state);
   if (!old) return std::nullopt;
@@ -184,7 +185,7 @@ Closed aging(const Look& look, const Step& step) {
                            .job = *old,
                            .detail = "that job has waited longer than aging_s"});
   }
-  return FoundWaits(step.judgement().found);  // the older one may be about to go
+  return FoundWaits(step.judgement().found);  // the aged job may be about to go
 }
 
 // Conditions in the order in which they are checked. Those that the planner, a client or a task
@@ -312,10 +313,10 @@ FoundWaits found_in_the_way(const State& state, const Step& step) {
   return held ? FoundWaits(std::move(*held)) : FoundWaits();
 }
 
-// What is undecided counts as a conflict: it stays so while nothing moves.
+// An undecided check is treated as a conflict, because it stays undecided while nothing moves.
 std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   const JobBook& jobs = state.jobs;
-  if (wait.kind == Wait::Kind::predecessor) {  // it shall be done before, lest it never can be
+  if (wait.kind == Wait::Kind::predecessor) {  // the safe sequence needs that job first
     const bool still = jobs.active().contains(*wait.job) && stands(state, jobs.at(*wait.job));
     return still ? wait.job : std::nullopt;
   }

@@ -24,9 +24,8 @@ class FoundWaits {
   std::span<const Wait> found_;
 };
 
-// The view in which a condition is checked: without turns, an admitted job or one that shall be
-// admitted with others; with turns, the next check of a waiting job, as far ahead as the policy
-// looks.
+// Tells what a condition is checked for. Without turns: the start of an admitted job, or admission
+// in a group. With turns: the next check of a waiting job, within the policy's horizon.
 struct Look {
   const State& state;
   const Turns* turns = nullptr;

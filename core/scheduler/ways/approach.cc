@@ -33,8 +33,8 @@ bool send_to_start(Transitions& state, const Step& head, ArmId arm) {
   return true;
 }
 
-// Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
-// stand.
+// Sends the job's arms to its start, or has this checked first. Returns false if the job must fail.
+// Precondition: the job is the first of its arms, waits, and begins elsewhere.
 bool goes_to_start(Transitions& state, const Step& head) {
   if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
@@ -99,7 +99,7 @@ void keep_those_behind(Transitions& state, const Step& step) {
   state.lanes().renew_later();
 }
 
-// The end of a job of several arms gives each of them a new head: hence until there are none.
+// The end of a job of several arms gives each arm a new first job, so this repeats until none ends.
 void fail_impossible_starts(Transitions& state) {
   const auto arms = static_cast<std::uint32_t>(state->cell->arms.size());
   for (std::uint32_t unchanged = 0, arm = 0; unchanged < arms; arm = (arm + 1) % arms) {
