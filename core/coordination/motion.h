@@ -13,10 +13,9 @@
 
 namespace armloom {
 
-// The motion of one step in a collision check. At the question's instant the motion is at
-// `progress` (trajectory time, <= duration). From there it runs to its end and then rests at the
-// goal. If `progress` is negative, the arm first rests at the motion's start for the duration
-// -progress.
+// A view of a step for a collision check. At the question's instant the motion is at `progress`
+// (trajectory time, <= duration). From there it runs to its end and then rests at the goal. If
+// `progress` is negative, the arm first rests at the motion's start for the duration -progress.
 struct Motion {
   StepId step;
   TrajectoryPtr trajectory;

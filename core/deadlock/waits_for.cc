@@ -78,7 +78,7 @@ class Components {
   std::size_t entered_ = 0;
 };
 
-// Nothing waits for itself, nor a job for an arm that it moves itself.
+// Removes waits of jobs for themselves, and for arms that they move.
 WaitsFor without_own(const WaitsFor& graph) {
   std::vector<WaitsForEdge> edges;
   for (std::size_t node = 0; node < graph.nodes().size(); ++node) {
@@ -91,7 +91,8 @@ WaitsFor without_own(const WaitsFor& graph) {
   return WaitsFor(std::move(edges));
 }
 
-// The shortest way from `start` back to it; breadth first, smaller nodes first. Empty: none.
+// Returns the shortest cycle through `start`, breadth first, smaller nodes first; empty if there is
+// none.
 std::vector<std::size_t> shortest_cycle(const WaitsFor& graph, std::size_t start,
                                         const std::vector<std::size_t>& component) {
   std::vector<std::size_t> queue{start};

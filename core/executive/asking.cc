@@ -1,5 +1,4 @@
-// What clients ask without anything being done: what would become of a job, how an arm would get
-// somewhere.
+// Answers queries of clients that change nothing: checks of jobs, plans to goals.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -14,7 +13,7 @@
 namespace armloom {
 namespace {
 
-// For each arm that may go; where that begins stands in `at`.
+// Returns a question for each candidate arm; its `at` contains the start.
 Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInquiry& inquiry,
                                                const Configuration& at) {
   Problems problems;
@@ -35,7 +34,7 @@ Result<std::vector<PlanQuestion>> questions_of(const Cell& cell, const PlanInqui
   return questions;
 }
 
-// When it would be there as a job, from now; nothing: that is not known.
+// Returns when the arm would arrive, from now, if the plan were a job; nullopt if not known.
 std::optional<double> arrives_s(const PlanView& plan) {
   if (!plan.verdict || !plan.verdict->earliest_start_s) return std::nullopt;
   return *plan.verdict->earliest_start_s + to_seconds(plan.takes);
@@ -54,7 +53,7 @@ using RefusedArms = std::vector<std::pair<std::string, PlanRefusal>>;
 
 }  // namespace
 
-// Joints or a state as they were said; else the whole pose.
+// Points at a joint or the named state if the goal has them, otherwise at the whole pose.
 void point_at_goal(const std::string& place, const PlanGoal& said, RefusedInquiry& refused) {
   if (said.named) {
     refused.pointer = place + "/named";
@@ -69,7 +68,7 @@ void point_at_goal(const std::string& place, const PlanGoal& said, RefusedInquir
 
 namespace {
 
-// What of the inquiry is at fault. Where the arm stands is nothing that it says.
+// Points at the part of the inquiry that is at fault.
 RefusedInquiry placed(const PlanInquiry& inquiry, const std::string& arm, PlanRefusal why) {
   using Reason = PlanRefusal::Reason;
   RefusedInquiry refused{std::move(why)};
@@ -88,7 +87,7 @@ RefusedInquiry placed(const PlanInquiry& inquiry, const std::string& arm, PlanRe
   return refused;
 }
 
-// Of one arm its own; of several each one's, with the kind of the first.
+// Joins the refusals of all arms; the first one gives the kind.
 RefusedInquiry refusal_of(const PlanInquiry& inquiry, const RefusedArms& all) {
   RefusedInquiry refused = placed(inquiry, all.front().first, all.front().second);
   if (all.size() == 1) return refused;
@@ -101,7 +100,7 @@ RefusedInquiry refusal_of(const PlanInquiry& inquiry, const RefusedArms& all) {
   return refused;
 }
 
-// What is known when each arm has been asked about.
+// Returns the best plan, with the other arms and the reasons against them.
 PlanOutcome first_of(const PlanInquiry& inquiry, std::vector<PlanView> plans,
                      const RefusedArms& refused) {
   if (plans.empty()) return tl::unexpected(refusal_of(inquiry, refused));
@@ -152,7 +151,7 @@ Trial::Open InquiryDesk::open_now() const {
   return {questions_.asked(), questions_.plans().open()};
 }
 
-// As admission would, in this instant.
+// Answers the trial's questions one after the other.
 void InquiryDesk::walk(std::shared_ptr<Trial> trial, PlanningScenePtr scene,
                        std::function<void(TrialEnd)> done) {
   if (auto question = trial->next()) {
@@ -204,7 +203,6 @@ void InquiryDesk::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> c
                                                       std::move(cancelled), std::move(done)}));
 }
 
-// One arm after the other.
 void InquiryDesk::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
   if (inquiry->next == inquiry->questions.size()) {
     return inquiry->done(first_of(inquiry->inquiry, std::move(inquiry->plans), inquiry->refused));

@@ -44,7 +44,7 @@ void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
   take(certificates);
 }
 
-// The certifier's open answer is about the scene before: it does not count.
+// The open answer is about the previous scene, so it is not counted.
 void AuthorityGate::look_at(const SceneFingerprint& present) {
   guard_.look_at(present);
   for (auto& [step, kept] : kept_) kept.answers = asked_ == step ? -1 : 0;
@@ -226,7 +226,7 @@ Question AuthorityGate::question_about(StepId step, const Kept& kept) const {
   return question;
 }
 
-// A motion that was braked before its arms were told of it.
+// Returns the report of a motion that was braked before its arms got it.
 MotionReport AuthorityGate::stopped(StepId step, const Kept& kept) const {
   Duration last = kept.motion->duration(), farthest{};
   for (const ArmId arm : kept.motion->arms()) {

@@ -66,6 +66,7 @@ class AuthorityGate {
   inline static constexpr int kAnswers = 2;
 
  private:
+  // A view of a dispatched step whose authority is withheld.
   struct Kept {
     TrajectoryPtr motion;
     Duration authority;

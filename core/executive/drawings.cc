@@ -9,8 +9,7 @@
 namespace armloom {
 namespace {
 
-// As fine as a picture of some seconds can show; where that takes more cells (longer motions, much
-// conflict), coarser ones. A fraction of a second, on a thread that nobody waits for.
+// Resolution for motions of some seconds; coarser if it takes too many cells.
 constexpr Duration kResolution = std::chrono::milliseconds(10);
 constexpr std::uint64_t kCells = 24'000;
 constexpr std::size_t kDrawnMax = 4;
@@ -19,7 +18,7 @@ bool share_no_space(const Trajectory& a, const Trajectory& b) {
   return a.arms().size() == 1 && a.arms() == b.arms();
 }
 
-// The diagram, with what lies ahead of where the two are.
+// Adds the diagram, and the first conflict ahead of both motions.
 DiagramView shown(DiagramView view, const Diagram& diagram, const Cell& cell) {
   view.evaluations = diagram.evaluations;
   for (const DiagramLayer& layer : diagram.layers) {

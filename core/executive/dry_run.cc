@@ -16,8 +16,8 @@
 namespace armloom {
 namespace {
 
-// The instant at which a job begins: what has begun by then is under way or has ended, whatever the
-// verdict on it was; the job comes now, and behind it the next job of every arm that has none.
+// The instant at which a job begins. Jobs that have begun are under way or have ended, whatever
+// their verdict. The job is submitted, and then the next job of every arm without one.
 class Instant final : public JobNames {
  public:
   // `begun`: indices, in order of starts.
@@ -66,7 +66,7 @@ class Instant final : public JobNames {
     return ids_.emplace(index, JobId{known_.size()}).first->second;
   }
 
-  // Not, if jobs of its arms come before it, or one of those it comes after is not among the next.
+  // Skips the job if its arms have an earlier job, or if it comes after a job that is not added.
   void add_next(std::size_t index) {
     const Planned& job = plan_.jobs()[index];
     Submit next{.job = JobId{0}, .trajectory = job.trajectory};
@@ -166,7 +166,7 @@ std::vector<CheckView> judged(const DryRunPlan& plan, const PlanningScenePtr& sc
     }
     checker.look_at(*std::move(then));
     views[index] = judged(instant, cell, policy, checker);
-    // Counted from where it was judged.
+    // Relative to `starts` until here.
     auto& starts_s = views[index].earliest_start_s;
     if (starts_s) *starts_s += to_seconds(job.starts - job.asked);
   }

@@ -60,7 +60,7 @@ void DryRunPlan::follow(std::size_t before, Planned& job) {
   }
 }
 
-// Each motion comes after the one before, or `next` after other jobs.
+// Adds the motions. Each comes after the previous one, or `next` after other jobs.
 void DryRunPlan::add_steps(std::vector<PreparedJob::PreparedStep> steps, Planned next) {
   TaskPreview preview(std::move(steps), scene_, ahead_.rest);
   for (std::size_t acts = 0;; acts = preview.index()) {
@@ -96,8 +96,7 @@ void DryRunPlan::choose(const PreparedMotion& motion, const PlanningScenePtr& sc
   if (job.trajectory) take(job);
 }
 
-// From where the jobs before it leave all arms, as the server asks; by the arm that is there
-// first.
+// Plans from where the earlier jobs leave all arms, and takes the arm that arrives first.
 void DryRunPlan::plan(const std::vector<MotionGoal>& goals, const PlanningScenePtr& scene,
                       Planned& job) {
   std::string why;

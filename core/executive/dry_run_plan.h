@@ -13,8 +13,8 @@
 
 namespace armloom {
 
-// A job, or a motion of a job with steps, with the time at which it begins if everything goes as
-// planned.
+// A view of a step before its submission: a job, or a motion of a job with steps, with the time at
+// which it begins if everything goes as planned.
 struct Planned {
   std::size_t job;  // its index in the file
   std::string key;

@@ -120,6 +120,7 @@ struct JobTimesView {
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
 };
+// A view of a step for clients.
 struct JobMotionView {
   Duration duration{};
   std::optional<bool> planned;  // for a goal; if false, the duration is an estimate

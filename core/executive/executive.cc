@@ -1,4 +1,4 @@
-// The public face of what stands in executive_impl.h.
+// Forwards all calls to the modules in executive_impl.h.
 #include "core/executive/executive.h"
 
 #include <algorithm>

@@ -269,8 +269,8 @@ class Executive {
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 
-  // The arm does not hold the object any more, which is part of the scene from now on, where it is:
-  // what an operator does after a job has failed. Returns the object. Problems:
+  // Releases an object that an arm holds. It stays at its position as a scene object. Operators use
+  // this after a failed job. Returns the object. Problems:
   // - not_found; "not-held": no arm holds it
   // - "arm-moves"
   // - "job-under-way": a job with steps that has begun moves the arm

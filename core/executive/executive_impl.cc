@@ -92,14 +92,14 @@ void Executive::Impl::step(const Input& input) {
     clients_.tasks.actions().fire_triggers(*report);
     if (effects.empty()) return;
   }
-  if (!clock_.wind_down) publisher_.tell_stops();  // nobody resumes what only the end has stopped
+  if (!clock_.wind_down) publisher_.tell_stops();  // a shutdown needs no resume
   publisher_.queue_may_have_changed(clock_.now);
   publisher_.publish_step(clock_.now);
   clients_.tasks.go_on_with_tasks();
 }
 
-// Arms whose motions have ended may have left the objects at which they were. Once all effects are
-// carried out, because this changes the scene, which is a step of its own.
+// Clears contact that arms have left by the end of their motions. Call after all effects, because
+// this changes the scene, which is a step of its own.
 void Executive::Impl::clear_left_touch(const std::vector<Effect>& effects) {
   std::vector<ArmId> arms;
   for (const Effect& effect : effects) {
@@ -112,8 +112,7 @@ void Executive::Impl::clear_left_touch(const std::vector<Effect>& effects) {
   if (!arms.empty()) clients_.tasks.actions().clear_left_touch(arms);
 }
 
-// What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
-// their paths, and the process ends.
+// Stops all arms on their paths if an invariant is broken. The process then ends.
 std::vector<Effect> Executive::Impl::decided(const Input& input) {
   try {
     return scheduler_.step(input, clock_.now);
@@ -185,7 +184,7 @@ void Executive::Impl::job_changed(JobId id) {
   publisher_.tell_job(std::move(view), clock_.now);
 }
 
-// Readers see how far a check has come that takes long. No event tells it: it is of this machine.
+// Shows the progress of a long check, without an event because it depends on this machine.
 void Executive::Impl::show_check() {
   constexpr Duration kShownAgain = std::chrono::milliseconds(250);
   clock_.shows_check_at = clock_.now + kShownAgain;
@@ -271,8 +270,7 @@ TimePoint Executive::Impl::settled_until() const {
 // ---- The guard ----
 
 void Executive::Impl::follow_policy() {
-  const CheckMethod method = scheduler_.policy().method;
-  const bool certified = !std::holds_alternative<TimedDiscrete>(method);
+  const bool certified = scheduler_.policy().has_orders();
   execution_.gate().set_certified(certified);
   if (certified) return;
   publisher_.tell(Alert{Alert::Level::info, "policy " + std::string(scheduler_.policy().name) +

@@ -1,4 +1,4 @@
-// Goals that jobs bring instead of a trajectory.
+// Reads goals of jobs without a trajectory.
 #include <cstdio>
 #include <utility>
 
@@ -10,7 +10,6 @@
 namespace armloom {
 namespace {
 
-// Of a goal that says where each joint is to be.
 void find_outside_limits(const Cell& cell, const MotionGoal& goal, Problems& problems) {
   const auto* q = std::get_if<Eigen::VectorXd>(&goal.to);
   if (q == nullptr) return;

@@ -37,7 +37,7 @@ class Search {
   }
 
  private:
-  // By pair of bodies that are too close: at how many candidates of an arm this is so.
+  // The number of an arm's candidates at which two bodies are too close.
   using Counts = std::map<PairId, HomeObstacle>;
 
   bool place(std::size_t arm) {

@@ -1,4 +1,4 @@
-// One job: its view, commands to it, and its end.
+// Handles one job: its view, commands to it, and its end.
 #include <utility>
 #include <vector>
 

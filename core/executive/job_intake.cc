@@ -16,8 +16,8 @@
 namespace armloom {
 namespace {
 
-// Each moves one arm, not another one's, and leaves it where it was: so the next job of an arm that
-// does not get this one can begin there.
+// Each alternative moves one arm, a different one, and returns it to its start. So the arm's next
+// job can begin there in any case.
 void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& motions,
                            Problems& problems) {
   std::vector<ArmId> arms;
@@ -255,8 +255,7 @@ std::vector<TrajectoryPtr> JobIntake::read_gripper_goal(const JobRequest& reques
   return {*std::move(motion)};
 }
 
-// Where it is not known yet where an arm will be, it is taken to be where the motion begins; at its
-// turn that is seen.
+// If an arm's position is not known yet, the motion's start is assumed, and checked at its turn.
 void JobIntake::begin_where_open(const Trajectory& motion, Ahead& ahead) const {
   for (std::size_t j = 0; j < motion.joints().size(); ++j) {
     const JointId joint = motion.joints()[j];
@@ -268,7 +267,7 @@ void JobIntake::begin_where_open(const Trajectory& motion, Ahead& ahead) const {
   for (ArmId arm : motion.arms()) std::erase(ahead.open, arm);
 }
 
-// A job can only come after one that is known before it: so there are no rings.
+// Jobs come only after known jobs, so `after` never forms a cycle.
 void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
                                Problems& problems) const {
   for (std::size_t i = 0; i < request.after.size(); ++i) {

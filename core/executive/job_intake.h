@@ -15,6 +15,7 @@
 
 namespace armloom {
 
+// The part of a checked request that becomes one step.
 struct PreparedMotion {
   std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; usually the only one
   std::vector<MotionGoal> goals;  // one for each of the trajectories, which are then estimates

@@ -38,7 +38,6 @@ void JobRegister::forget(JobId id) {
   if (std::erase(ended_, id) > 0) take_out(id);
 }
 
-// One that has ended.
 void JobRegister::take_out(JobId id) {
   ended_bytes_ -= labels_.at(id).bytes;
   ids_.erase(labels_.at(id).key);

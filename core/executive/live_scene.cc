@@ -22,7 +22,7 @@ auto named(const std::string& name) {
   return [&name](const CollisionObject& object) { return object.name == name; };
 }
 
-// Conflicts and allowed pairs name links and objects alike: a name means one body.
+// Links and objects share one set of names, because conflicts and allowed pairs name both.
 std::optional<Problem> taken_in_cell(const std::string& name, const Cell& cell,
                                      const std::string& place) {
   const auto has_name = [&name](const auto& part) { return part.name == name; };
@@ -195,7 +195,7 @@ ExecutiveInput input_of(const SceneEdit& edit) {
       edit);
 }
 
-// Returns the place of the object in the client's request.
+// Returns the JSON pointer of the object in the request.
 std::string place_of(const SceneEdit& edit, const std::string& name) {
   const auto* set = std::get_if<ObjectsSet>(&edit);
   if (set == nullptr) return "";
@@ -218,7 +218,7 @@ PreparedEdit prepare(SceneEdit edit, const PlanningScenePtr& base) {
   return {base, std::move(edit), std::move(made)};
 }
 
-// An object may not be set where an arm stands: that is a mistake, or an accident that the monitor
+// Returns a problem if an object is set where an arm is: a mistake, or an accident that the monitor
 // would answer with a stop.
 std::optional<Problem> LiveScene::object_in_arm(const PreparedEdit& prepared) const {
   if (prepared.made->changed.empty()) return std::nullopt;

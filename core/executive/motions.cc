@@ -130,7 +130,7 @@ void Motions::keep_together(Motion& motion) {
   for (ArmId arm : motion.trajectory->arms()) {
     last = std::min(last, feedback(arm).commanded_progress);
   }
-  // In steps, as an arm plans its brake anew for each one.
+  // In steps, because an arm plans its braking anew for each one.
   const Duration reach = last + motion.ahead_max;
   if (reach >= motion.authority || reach - motion.handed_on >= motion.out_of_step / 2) {
     motion.handed_on = std::min(reach, motion.authority);

@@ -79,6 +79,7 @@ class Motions {
   [[nodiscard]] std::vector<UnderWay> under_way() const;
 
  private:
+  // A view of a dispatched step: what its arms were told.
   struct Motion {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration> stands_at{};  // measured, after a brake

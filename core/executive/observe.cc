@@ -25,7 +25,7 @@ Observation observed(const Motions& motions, const AuthorityGate& gate, std::siz
         .motion = std::move(motion),
         .measured = feedback.measured_progress,
         .commanded = feedback.commanded_progress,
-        // Not the guard's: the guard raises it to the measured progress.
+        // The guard raises its own value to the measured progress.
         .authority = position.at_rest ? feedback.measured_progress
                                       : std::max(motions.granted(arm), feedback.authority),
         .starts = motions.starts(arm),

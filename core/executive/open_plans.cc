@@ -6,7 +6,6 @@
 namespace armloom {
 namespace {
 
-// Joint positions, as a goal takes them.
 std::string nearest_text(const PlanRefusal& refusal) {
   if (!refusal.nearest) return "";
   std::string text;

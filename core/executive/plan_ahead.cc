@@ -10,7 +10,8 @@ struct DiagramPlace {
   double a_s, b_s;
 };
 
-// The share (0..1) of a stretch at which it enters the closed rectangle; nothing when it passes by.
+// Returns the share (0..1) of the segment at which it enters the closed rectangle; nullopt if it
+// misses it.
 std::optional<double> entry(const DiagramPlace& from, const DiagramPlace& to,
                             const DiagramCell& cell) {
   double enters = 0.0;

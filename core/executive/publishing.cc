@@ -147,8 +147,7 @@ void Publisher::tell_queue(TimePoint now) {
   tell_queue(present, now);
 }
 
-// With the lists as they were told: to make those of thousands takes longer than all else of a
-// stop.
+// Publishes a stop at once, with the previous lists: new ones take long with thousands of jobs.
 void Publisher::tell_stopped(TimePoint now) {
   const bool stopped = arms_.all_stopped();
   const double speed = shown_.scheduler.state().speed.cell();
@@ -158,7 +157,7 @@ void Publisher::tell_stopped(TimePoint now) {
   if (is_news) tell_queue(std::move(told_.queue), now);
 }
 
-// The lists of thousands are moved through the event, not copied once more.
+// Moves the lists through the event instead of copying them.
 void Publisher::tell_queue(QueueView queue, TimePoint now) {
   publish(now);
   Event event{++seq_, now, std::move(queue)};

@@ -22,9 +22,9 @@ class Publisher {
 
   using Body = decltype(Event::body);
   void tell(Body body, TimePoint now);
-  // Publish the scene: on the board at once. Events of large scenes are published less often, so
-  // that one event may cover several changes. What arms hold and what may touch is published at
-  // once, because the audit of a recording relies on its time; what has expired, too.
+  // Publish the scene. The board is updated at once; events of large scenes are less frequent, and
+  // one event may cover several changes. Changes of holdings and allowed touch, and expired
+  // objects, are published at once, because the audit of a recording relies on their times.
   void scene_has_changed(TimePoint now);
   void tell_scene(TimePoint now);
   void tell_signal(SignalId signal, TimePoint now);

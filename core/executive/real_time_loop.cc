@@ -24,20 +24,19 @@ using Wall = std::chrono::steady_clock;
 // slip instead of running a burst of cycles.
 constexpr Wall::duration kCatchUpMax = std::chrono::milliseconds(50);
 
-// So many diagrams may be asked for and not drawn yet.
+// Limits of open diagrams, plans and checks of clients.
 constexpr int kDrawingsMax = 16;
-// And so many plans and checks of clients.
 constexpr int kDraftsMax = 16;
 constexpr int kConsideredMax = 256;
 
-// What comes in has at least so long in a cycle, and at most until the next one is due: what is
-// left waits for the one after.
+// Inputs are handled for at least this long in a cycle, and at most until the next cycle is due.
+// The rest waits for the next cycle.
 constexpr Wall::duration kInputsAtLeast = std::chrono::microseconds(500);
-// A cycle that comes so much too late is told, but not more often than that.
+// A cycle that is this late is reported, but at most once in kTellsAgain.
 constexpr Wall::duration kTellsLate = std::chrono::milliseconds(500);
 constexpr Wall::duration kTellsAgain = std::chrono::minutes(1);
 
-// A closed-off inbox: posted by any thread, taken whole by the one that owns it.
+// An inbox. Any thread posts to it; its owner takes all items at once.
 template <class Item>
 class Inbox {
  public:
@@ -54,7 +53,7 @@ class Inbox {
     arrived_.wait_until(lock, stop, until, [this] { return !items_.empty(); });
     return std::exchange(items_, {});
   }
-  // What has arrived.
+  // Returns all that has arrived.
   std::deque<Item> take() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(items_, {});
@@ -66,7 +65,7 @@ class Inbox {
   std::deque<Item> items_;
 };
 
-// A thread that looks at scenes.
+// A worker with a checker of its own.
 struct Looker {
   OwnChecker checker;
   Worker worker;  // the last: it ends first
@@ -111,14 +110,13 @@ class RealTimeLoop::Impl final : public JudgementService {
     return asked_ ? std::optional(asked_->share()) : std::nullopt;
   }
 
-  // Nor does the guard's wait for those of jobs.
+  // On its own thread, so that the guard does not wait for checks of jobs.
   void certify(Question question, PlanningScenePtr scene,
                std::function<void(Verdict)> done) override {
     judge(threads_.certifier, std::move(question), std::move(scene), std::move(done));
   }
 
-  // On a thread and with a checker of its own, as all that clients ask: however long it takes, no
-  // job waits for it, and verdicts on jobs do not depend on it.
+  // On a thread and checker for clients, so that no job waits for it and no verdict depends on it.
   bool consider(Question question, PlanningScenePtr scene,
                 std::function<void(Verdict)> done) override {
     if (open_.considered >= kConsideredMax) return false;
@@ -207,7 +205,7 @@ class RealTimeLoop::Impl final : public JudgementService {
     });
   }
 
-  // One more is open until it is done.
+  // Counts the request as open until it is answered.
   template <class Answer>
   static std::function<void(Answer)> counted(int& open, std::function<void(Answer)> done) {
     ++open;
@@ -235,7 +233,7 @@ class RealTimeLoop::Impl final : public JudgementService {
     }
   }
 
-  // Until the next cycle is due.
+  // Handles inputs until the next cycle is due.
   void take_inputs(const std::stop_token& stop, Wall::time_point due) {
     const Wall::time_point until = std::max(due, Wall::now() + kInputsAtLeast);
     std::deque<Task>& waiting = commands_.waiting;
@@ -245,7 +243,6 @@ class RealTimeLoop::Impl final : public JudgementService {
     } while (!stop.stop_requested() && Wall::now() < (waiting.empty() ? due : until));
   }
 
-  // What is urgent is done at once.
   void sort_in(std::deque<Command> came) {
     for (Command& command : came) {
       if (command.is_urgent) {
@@ -278,7 +275,7 @@ class RealTimeLoop::Impl final : public JudgementService {
       return true;
     });
   }};
-  struct Open {  // asked for and not done; the loop thread's
+  struct Open {  // open requests; of the loop thread
     int considered = 0;
     int drawings = 0;
     int drafts = 0;

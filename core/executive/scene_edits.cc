@@ -9,9 +9,9 @@
 namespace armloom {
 namespace {
 
-// Edits that wait, the one that is being prepared included.
+// Largest number of waiting edits, including the one that is being prepared.
 constexpr std::size_t kEditsMax = 256;
-// If an edit removes so many objects, the memory that the allocator keeps is returned.
+// After an edit that removes this many objects, unused memory is returned to the system.
 constexpr std::size_t kManyRemoved = 100;
 
 }  // namespace

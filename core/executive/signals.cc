@@ -132,7 +132,7 @@ void Signals::tell_device(const IoReport& report) {
   }
 }
 
-// A refusal that comes again, as of an output that a step sets again, is told once.
+// Reports a repeated refusal once, for example if a step sets its output again.
 void Signals::tell_refusal(const IoReport& report, const std::string& signal,
                            const std::string& why) {
   std::string& told = told_refusals_[signal];

@@ -58,7 +58,7 @@ class Signals {
   // Sets an output, or a simulated input. Problems: an unknown signal; a value of another type; an
   // input of a device (conflict); an output of a device that is not connected (unavailable).
   [[nodiscard]] Result<SignalView> set(const std::string& name, const SignalValue& value);
-  // The same for a step of a job, which is no input of its own.
+  // Does the same as set() for a step of a job, which is not an external input.
   [[nodiscard]] Result<SignalView> command(const std::string& name, const SignalValue& value);
   // Takes the report of a device. Ignores reports of unknown devices.
   void report(const IoReport& report);

@@ -25,7 +25,7 @@ class Simulation::Judge final : public JudgementService {
     answer([verdict = std::move(verdict), done = std::move(done)] { done(verdict); });
   }
 
-  // By a checker of its own, as drawings are.
+  // Uses its own checker, as draw() does, so that the evaluations of verdicts do not change.
   void certify(Question question, PlanningScenePtr scene,
                std::function<void(Verdict)> done) override {
     answer([verdict = certifier_.in(scene).judge(question), done = std::move(done)] {
@@ -33,7 +33,6 @@ class Simulation::Judge final : public JudgementService {
     });
   }
 
-  // By a checker of its own: what has been drawn must not change the evaluations of a verdict.
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     answer([diagram = artist_.in(scene).draw(drawing), done = std::move(done)] { done(diagram); });
     return true;
@@ -132,7 +131,7 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenar
   std::vector<TimedJob>& jobs = scenario.jobs;
   const TimePoint time_limit = scenario.time_limit;
   options.ended_kept = std::max(options.ended_kept, jobs.size());
-  // A scenario is in memory already, and its result tells of every job.
+  // A scenario is in memory anyway, and its result contains every job.
   options.active_bytes_max = options.ended_bytes_max = std::numeric_limits<std::size_t>::max();
   auto simulation = Simulation::create(std::move(cell), std::move(options), observer);
   if (!simulation) return failure(std::move(simulation.error()));

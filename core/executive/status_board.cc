@@ -116,7 +116,7 @@ std::vector<JobSheet::JobPtr> StatusBoard::jobs(const std::vector<std::string>& 
 }
 
 void StatusBoard::publish(const Now& now, const std::vector<KeyOfJob>& gone) {
-  JobSheet before = now.jobs;  // what it held alone is given up outside the lock
+  JobSheet before = now.jobs;  // freed outside the lock
   const std::scoped_lock lock(mutex_);
   std::swap(status_.jobs, before);
   status_.seq = now.seq;

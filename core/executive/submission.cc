@@ -1,4 +1,4 @@
-// What clients ask to be done: jobs and batches; and what a former run left.
+// Submits jobs and batches, and the jobs that a previous session left.
 #include <algorithm>
 #include <utility>
 
@@ -63,7 +63,7 @@ JobView JobDesk::accept(PreparedJob prepared) {
 }
 
 void JobDesk::enter(Submit submitted, JobLabel label) {
-  // Alternatives are all of its trajectories where there are any.
+  // Alternatives include the trajectory.
   label.bytes = submitted.alternatives.empty() ? submitted.trajectory->bytes()
                                                : bytes_of(submitted.alternatives);
   jobs_.add(submitted.job, std::move(label));

@@ -85,7 +85,8 @@ const Task* TaskBook::find(JobId motion) const {
 }
 
 Task* TaskBook::find(JobId motion) {
-  return const_cast<Task*>(static_cast<const TaskBook&>(*this).find(motion));
+  const auto id = id_of_motion_.find(motion);
+  return id == id_of_motion_.end() ? nullptr : &tasks_.at(id->second);
 }
 
 JobId TaskBook::told(JobId job) const {
@@ -147,7 +148,8 @@ Touch touch_of(const Cell& cell, const std::vector<std::string>& names) {
 std::vector<TouchOf> touch_during(const Cell& cell, const std::vector<StepRequest>& steps,
                                   std::map<std::string, LinkId> carried) {
   std::vector<TouchOf> during(steps.size());
-  // The motion next to step `i` in this direction, and the gripper's steps before it.
+  // Adds the touch to the motion next to step `i` in this direction, and to gripper steps before
+  // it.
   const auto next_to = [&](std::size_t i, int direction, const std::string& object,
                            const Touch& touch) {
     for (auto k = static_cast<std::ptrdiff_t>(i) + direction;

@@ -19,8 +19,8 @@ namespace armloom {
 // By object: links and objects that it may touch during a motion.
 using TouchOf = std::map<std::string, Touch>;
 
-// A step of a task. Each motion is a job of the scheduler, which comes after the job of the motion
-// before it (Submit::task).
+// A step of a task: its request, and how far it is. Each motion is a job of the scheduler (`job`),
+// which comes after the job of the motion before it (Submit::task).
 struct TaskStep {
   StepRequest request;
   std::optional<JobId> job = {};  // motions

@@ -1,4 +1,4 @@
-// The actions of jobs with steps: what arms hold, what may touch, inputs and outputs.
+// Executes the actions of jobs with steps: attach and detach, touch, inputs and outputs.
 #include <algorithm>
 #include <span>
 #include <utility>

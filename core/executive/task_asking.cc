@@ -1,5 +1,4 @@
-// Questions of clients about jobs with steps: what would become of one, and how its arms would get
-// to its goals.
+// Answers queries about jobs with steps: plans and checks.
 #include <algorithm>
 #include <utility>
 

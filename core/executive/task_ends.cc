@@ -1,5 +1,4 @@
-// Ends of jobs with steps: by success, failure or cancel, and because what the arms hold has
-// changed.
+// Ends jobs with steps: by success, failure or cancel, or because holdings have changed.
 #include <algorithm>
 #include <utility>
 

@@ -20,6 +20,7 @@ struct TriggerRequest {
   std::string signal;
   SignalValue value;
 };
+// A client's request for a motion, before it becomes a step of the scheduler.
 struct MotionStepRequest {
   TrajectoryRequest trajectory;          // ignored if there is a goal
   std::optional<PlanGoal> move_to = {};  // for `arm`

@@ -54,7 +54,7 @@ StepView view_of_step(const Task& task, std::size_t i, const Scheduler& schedule
   return view;
 }
 
-// The motions as one: each counts by its duration.
+// Joins the motions; each one is weighted by its duration.
 JobMotionView motion_of(const Task& task, const Scheduler& scheduler, const JobView& present) {
   JobMotionView all = present.motion;
   all.duration = Duration{};

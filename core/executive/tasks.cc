@@ -1,5 +1,4 @@
-// Jobs with several steps: which step is next, and what its actions do. Motions are jobs of the
-// scheduler.
+// Advances jobs with several steps. Their motions are jobs of the scheduler.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -27,7 +26,7 @@ std::string text_of(const Problems& problems) {
   return first.detail;
 }
 
-// The way in which a motion ended that did not succeed.
+// Returns the end of a task whose motion has not succeeded.
 TaskEnd end_of(const Task& task, const Step& motion, const JobView& view, TimePoint now) {
   std::string detail = view.detail();
   const auto is_motion = [&](const TaskStep& step) { return step.job == motion.id.job; };
@@ -176,8 +175,8 @@ bool TaskRun::waits_to_retry(Task& task, const std::string& why) {
   return true;
 }
 
-// Returns the first motion to come, or under way, that has ended without success. Of those to come,
-// it was in a deadlock.
+// Returns the first remaining motion that has ended without success. If it was still to come, it
+// was in a deadlock.
 const Step* TaskRun::lost_motion(const Task& task) const {
   for (std::size_t i = task.at; i < task.steps.size(); ++i) {
     const auto& motion = task.steps[i].job;
@@ -237,7 +236,6 @@ bool TaskRun::go_on_with_motion(Task& task, TaskStep& present) {
 
 void TaskRun::tell_task(JobId id) { publisher_.tell_job(publisher_.view(id), clock_.now); }
 
-// A motion of a task has changed.
 void TaskRun::motion_changed(Task& task, JobId motion) {
   const Step& step = *scheduler_.find(motion);
   if (step.times.started_at && !task.began_at) task.began_at = step.times.started_at;
@@ -255,8 +253,7 @@ bool TaskRun::any_stopped(const Task& task) const {
   return std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stopped(arm); });
 }
 
-// The first action is done only when it is on disk that the task has begun: after a restart,
-// nothing is done twice.
+// The first action waits until the start is on disk, so that a restart does nothing twice.
 bool TaskRun::is_recorded(const Task& task) {
   if (task.began_at) return true;
   const auto written = [this](JobId id) {

@@ -9,7 +9,6 @@
 namespace armloom {
 namespace {
 
-// Names as the status has them.
 class StatusNames final : public JobNames {
  public:
   StatusNames(const Status& status, const Cell& cell) : status_(status), cell_(cell) {}

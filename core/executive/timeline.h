@@ -22,6 +22,7 @@ struct TimelineView {
 // its arms. Every active job is either a leg in `steps` or included in `waiting`, in the lanes of
 // its `arms`. Times are cell time.
 struct TimelineLanes {
+  // Views of a PredictedPause and a PredictedLeg with the words that clients see.
   struct Pause {
     TimePoint from;
     std::optional<TimePoint> to;

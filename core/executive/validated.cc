@@ -10,7 +10,7 @@ void validate_ahead(JobRequest& request, const Cell& cell) {
   if (request.move_to || !request.steps.empty()) return;
   request.known.validated.clear();
   const auto motions = request.motions();
-  // These are completed on the strand, which knows where the arms will be.
+  // Implicit starts are completed on the strand, which knows where the arms will be.
   if (std::ranges::any_of(motions, [&](const JobRequest::PlacedMotion& placed) {
         return has_implicit_start(placed.motion, cell);
       })) {

@@ -11,13 +11,13 @@
 namespace armloom {
 namespace {
 
-// The setting with which `whom` would retreat.
+// Names the setting with which `whom` would retreat.
 std::string to_send_aside(const std::string& whom) {
   return "set \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that " +
          whom + " retreats if a path is free";
 }
 
-// The retreats that are tried.
+// Lists the retreats that are tried.
 std::string ways_aside(const Cell& cell) {
   const std::string known = "back along its last motion, home, ";
   const bool plans = cell.scheduling.on_idle_blocker == OnIdleBlocker::replan;
@@ -202,7 +202,7 @@ std::vector<std::string> ring_of(const Step& step, const JobNames& names) {
   std::vector<std::string> cycle;
   for (JobId on_it : step.job->ring) {
     const std::string key = names.key(on_it);
-    cycle.push_back(key.empty() ? "this job" : key);  // that is only asked about
+    cycle.push_back(key.empty() ? "this job" : key);  // a job in a query
   }
   // Motions of one job are told as one.
   const auto same = std::ranges::unique(cycle);
@@ -211,7 +211,7 @@ std::vector<std::string> ring_of(const Step& step, const JobNames& names) {
   return cycle;
 }
 
-// Of one that has ended. `waits`: as they are told.
+// Precondition: the job has ended. `waits`: as published.
 JobResultView result_of(const Step& step, const std::vector<WaitView>& waits, const Cell& cell,
                         const JobNames& names) {
   JobResultView result{*step.reason(), step.detail()};

@@ -70,7 +70,7 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Step& step) const;
 
-  // Returns true if there are joints_elsewhere() than at rest.
+  // Returns true if joints of the motion (of `arm`, if set) rest elsewhere than at its start.
   [[nodiscard]] bool begins_elsewhere(const Cell& cell, const Trajectory& trajectory,
                                       std::optional<ArmId> arm = {}) const;
   // Returns the detail of Reason::start_mismatch; nullopt without a mismatch.
@@ -91,7 +91,7 @@ class ArmRests {
   // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
   // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
-  // The first of several stops counts; a stop until the connection is replaced by any other.
+  // Stops the arm. Its first cause stays, but any other cause replaces a stop until the connection.
   void stop(ArmId arm, std::string cause, bool until_connected = false);
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, StepId step, const Trajectory& motion);
 

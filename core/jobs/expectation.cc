@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// So far off its expectation a motion may be: lag, starts between two ticks, braking for a pause.
+// Tolerated deviation: lag, starts between two ticks, braking for a pause.
 constexpr Duration kOffAtMost = std::chrono::milliseconds(400);
 
 }  // namespace

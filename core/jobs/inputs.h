@@ -49,7 +49,7 @@ struct Submit {
   // Actions of its task come before this motion: it is not planned, and does not start, before
   // ActionsDone.
   bool awaits_actions = false;
-  // How often a motion of a task that has no path to its goal awaits actions again, instead of
+  // Number of times that a motion of a task without a path awaits actions again, instead of
   // failing.
   int retries = 0;
 };

@@ -10,10 +10,8 @@ std::string name(StepId step) { return "job " + std::to_string(step.job.value())
 std::string at(Duration progress) { return std::to_string(to_seconds(progress)) + " s"; }
 
 Broken of_job(const State& state, const Step& step) {
-  const bool occupies =
-      step.in<Moving>() != nullptr || step.in<Braking>() != nullptr || step.in<Held>() != nullptr;
   if (step.has_ended()) return name(step.id) + " has ended but is in a queue";
-  if (occupies && !state.jobs.queues().is_first(step)) {
+  if (step.occupies_its_arms() && !state.jobs.queues().is_first(step)) {
     return name(step.id) + " occupies an arm, but another job precedes it in the queue";
   }
   if (!step.has_authority() || state.graph.holds(step.id)) return std::nullopt;

@@ -16,10 +16,10 @@ namespace armloom {
 // - For two motions A and B with progress s and authority alpha, the rectangle [s_A, alpha_A] x
 //   [s_B, alpha_B] meets none of their conflict regions.
 //
-// Asserted in every build. Takes time linear in the admitted motions and the boxes of their
-// regions. Two other checks throw std::logic_error: of phase transitions (JobBook::enter) and of
-// grants beyond the orders (PrecedenceGraph::granted). Only tests check that the orders are acyclic
-// (PrecedenceGraph::is_acyclic).
+// Asserted in every build, except after steps that only report progress. Takes time linear in the
+// admitted motions and the boxes of their regions. Two other checks throw std::logic_error: of
+// phase transitions (JobBook::enter) and of grants beyond the orders (PrecedenceGraph::granted).
+// Only tests check that the orders are acyclic (PrecedenceGraph::is_acyclic).
 [[nodiscard]] std::optional<std::string> broken_invariant(const State& state);
 
 }  // namespace armloom

@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// The table in step.h. What only gets other data stays in its phase.
+// The table in step.h, with changes of data within a phase.
 bool leads_to(const StepPhase& from, const StepPhase& to) {
   static constexpr bool kTable[][6] = {
       // to: Queued, Admitted, Moving, Braking, Held, Ended
@@ -178,7 +178,7 @@ void JobBook::start_over(const Step& step) {
   own.farthest = Duration{};
 }
 
-// What comes next on its arms may have waited for it, or does now.
+// The next jobs of its arms may have waited for it, or do so now.
 void JobBook::explain_with_next(const Step& step) {
   explain(step);
   for (ArmId arm : step.trajectory->arms()) {
@@ -217,7 +217,7 @@ std::vector<JobId> JobBook::end(const Step& step, Ended how) {
   const JobId id = step.id.job;
   const Ended& ended = *step.in<Ended>();
   if (ended.reason != Reason::deadlock && !step.job->ring.empty()) change(own).ring.clear();
-  if (ended.state != JobState::expired) own.waits_on.clear();  // else: what it waited for in vain
+  if (ended.state != JobState::expired) own.waits_on.clear();  // otherwise they tell why it expired
   if (ended.state == JobState::succeeded) own.progress = own.trajectory->duration();
   queues_.erase(step);
   queues_.remove_work(step);

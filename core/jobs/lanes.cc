@@ -6,8 +6,7 @@
 namespace armloom {
 namespace {
 
-// While a goal waits its way may yet be another one: it is planned for the first time, anew, or
-// around what others hold.
+// Returns true if the path to a waiting goal may change: by its plan, a new plan or a detour.
 bool is_way_open(const Step& step) { return step.goal && step.in<Queued>() != nullptr; }
 
 WaitingLeg waiting_leg(const Step& step) {

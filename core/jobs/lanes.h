@@ -19,7 +19,7 @@ class Lanes {
   Lanes(const Lanes&) = default;
   Lanes(Lanes&&) = default;
 
-  // The sequence must be renewed, because paths or places have changed.
+  // Marks the sequence as out of date, because paths or places have changed.
   void renew_later() { is_stale_ = true; }
 
   // Returns what remains of the sequence if these steps are admitted now. There is no objection if

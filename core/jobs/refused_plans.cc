@@ -20,7 +20,7 @@ bool is_same(const MotionGoal& a, const MotionGoal& b) {
   return std::visit([&b]<class To>(const To& to) { return is_same(to, std::get<To>(b.to)); }, a.to);
 }
 
-// Joints of arms that are left out, and are not its own, may be anywhere.
+// Compares the joints, except those of ignored arms.
 bool stand_alike(const Cell& cell, const std::vector<ArmId>& left_out, const Configuration& a,
                  const Configuration& b) {
   std::vector<bool> counts(static_cast<std::size_t>(a.size()), true);
@@ -36,7 +36,7 @@ bool stand_alike(const Cell& cell, const std::vector<ArmId>& left_out, const Con
 
 }  // namespace
 
-// A path that was not found although more arms were ignored does not exist past fewer.
+// If no path exists although more arms are ignored, none exists when fewer are ignored.
 const NoPlan* RefusedPlans::find(const Cell& cell, const PlanQuestion& question,
                                  const std::vector<ArmId>& left_out, bool only_sought) const {
   const auto found = std::ranges::find_if(refused_, [&](const Refused& refused) {

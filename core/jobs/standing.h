@@ -44,8 +44,9 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // Returns the time since stands_since(); zero if the arms do not stand yet.
 [[nodiscard]] Duration stood_for(const Cell& cell, const Step& step, TimePoint now);
 
-// Returns the cell time that the motion has taken per trajectory time since its last rest or change
-// of speed override; `planned` (SpeedOverride::pace) if it goes about so, or if this is not known.
+// Returns the cell time per trajectory time, measured since the last rest or change of speed
+// override. Returns `planned` (SpeedOverride::pace) if the difference is small or nothing is
+// measured.
 [[nodiscard]] double pace_of(const Cell& cell, const Step& step, double planned, TimePoint now);
 
 }  // namespace armloom

@@ -254,8 +254,14 @@ struct Step {
   [[nodiscard]] bool is_admitted() const {
     return in<Admitted>() != nullptr || in<Moving>() != nullptr;
   }
+  // True if its arms follow its path now, or brake on it.
+  [[nodiscard]] bool is_in_motion() const {
+    return in<Moving>() != nullptr || in<Braking>() != nullptr;
+  }
+  // True if no other motion of its arms can begin: it is in motion, or held on its path.
+  [[nodiscard]] bool occupies_its_arms() const { return is_in_motion() || in<Held>() != nullptr; }
   // True if it is admitted, or still braking.
-  [[nodiscard]] bool has_authority() const { return is_admitted() || in<Braking>() != nullptr; }
+  [[nodiscard]] bool has_authority() const { return in<Admitted>() != nullptr || is_in_motion(); }
   // Precondition: the job is waiting.
   [[nodiscard]] const Judgement& judgement() const {
     const auto* held = in<Held>();

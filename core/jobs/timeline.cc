@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// What is predicted of all admitted motions, read leg by leg.
+// The prediction for all admitted motions, read leg by leg.
 class Timetable {
  public:
   Timetable(const State& state, TimePoint now)
@@ -67,7 +67,7 @@ class Timetable {
     return leaves ? std::optional(now_ + *leaves) : std::nullopt;
   }
 
-  // Those that end.
+  // Returns the pauses that end.
   [[nodiscard]] std::vector<PredictedPause> pauses(std::size_t m) const {
     std::vector<PredictedPause> pauses;
     const auto stages = prediction_.stages(m);
@@ -82,7 +82,7 @@ class Timetable {
     return pauses;
   }
 
-  // Of one that is stuck: where it comes to stand.
+  // Returns the pause in which a stuck motion stays.
   [[nodiscard]] PredictedPause last_pause(std::size_t m) const {
     const auto stages = prediction_.stages(m);
     if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
@@ -94,7 +94,7 @@ class Timetable {
             is_blocked ? wait_for(rests->blocker()) : waits_on(m, at, std::nullopt)};
   }
 
-  // The motion before it on an arm never ends.
+  // Returns the wait for an earlier motion of its arms that never ends.
   [[nodiscard]] std::optional<Wait> behind(std::size_t m) const {
     for (const std::size_t before : chains_.before(m)) {
       if (is_stuck(before))
@@ -103,7 +103,7 @@ class Timetable {
     return std::nullopt;
   }
 
-  // Whom it waits for where it stands, until that one opens the way; nothing: who never does.
+  // Returns what the motion waits for at `at` until `opens`; nullopt for `opens`: forever.
   [[nodiscard]] std::optional<Wait> waits_on(std::size_t m, Duration at,
                                              std::optional<Duration> opens) const {
     for (const auto& [first, second, precedence] : dependencies_) {

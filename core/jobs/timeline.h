@@ -15,8 +15,8 @@ struct PredictedPause {
   std::optional<Wait> waits_on;  // nullopt if the arm rests without being held back by orders
 };
 
-// The prediction for an admitted motion. Time in which it waits for earlier motions of its own arms
-// is not a pause.
+// A view of an admitted step: when it moves. Time in which it waits for earlier motions of its own
+// arms is not a pause.
 struct PredictedLeg {
   StepId step;
   std::optional<TimePoint> starts;  // when it leaves, or has left, its start; nullopt: never

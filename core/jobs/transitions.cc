@@ -10,10 +10,10 @@ namespace {
 
 using Then = AfterStop::Then;
 
-// By any way that it has had.
+// Returns true if the job has moved, on any path that it has had.
 bool has_begun(const Step& step) { return step.times.started_at.has_value(); }
 
-// For the time being with the arm that has least to do.
+// Returns the alternative of the arm with the least work.
 const TrajectoryPtr& likeliest(const State& state, const Submit& job) {
   if (job.alternatives.empty()) return job.trajectory;
   return *std::ranges::min_element(job.alternatives, {}, [&](const TrajectoryPtr& motion) {
@@ -84,8 +84,8 @@ void Transitions::enter(const Step& step, StepPhase phase) {
   state_.lanes.follow(step, before);
 }
 
-// Its motion is admitted no more: it rests where it is. Nor are those behind it on its arms, which
-// begin where it would have ended.
+// Removes the motion, which rests where it is. Withdraws the motions behind it on its arms, because
+// they begin where it would have ended.
 void Transitions::leave_graph(const Step& step) {
   if (!state_.graph.holds(step.id)) return;
   std::set<StepId> behind;
@@ -112,14 +112,14 @@ void Transitions::end_as(const Step& step, const AfterStop& after, const char* c
   end(step, expires ? JobState::expired : JobState::failed, after.reason, after.detail);
 }
 
-// Its arms stand: where it began, or on its path with the motion still told to them.
+// Ends a job whose arms rest at its start, or on its path with the motion not released.
 void Transitions::end_at_rest(const Step& step, const AfterStop& after) {
   const bool held = step.has_started();
   end_as(step, after, held ? "canceled while paused" : "canceled before it moved");
   if (held) release(step);
 }
 
-// An approach that could not be made, or has waited in vain: another one would not fare better.
+// A move to the start that failed or expired is not repeated: another one would fail, too.
 void Transitions::refuse_approach(const Step& step, Reason reason, const std::string& why) {
   const bool in_vain = reason == Reason::no_plan || reason == Reason::backlog_timeout;
   if (!in_vain || !step.goal || !step.job->errand.before) return;
@@ -155,7 +155,7 @@ void Transitions::interrupt(bool keeps_waiting) {
     if (keeps_waiting && !has_begun(step)) {
       job.is_held_over = true;
     } else {
-      job.after.clear();  // none fails for another's sake
+      job.after.clear();  // so that it is interrupted, not failed
       ends.push_back(step.id.job);
     }
     state_.jobs.set(step, std::move(job));
@@ -239,7 +239,7 @@ void Transitions::brake(const Step& step, AfterStop after) {
 void Transitions::come_to_rest(const Step& step, const MotionReport& report) {
   state_.arms.come_to_rest(*state_.cell, step.trajectory, report.rest_position);
   const bool moved = std::max(step.progress, report.farthest) > Duration{};
-  if (moved) state_.jobs.start(step, state_.now);  // unseen
+  if (moved) state_.jobs.start(step, state_.now);  // before this was measured
   const auto* braking = step.in<Braking>();
   const AfterStop after = braking != nullptr ? braking->after : AfterStop{};
   if (report.kind == MotionReport::Kind::finished) {
@@ -256,7 +256,7 @@ void Transitions::come_to_rest(const Step& step, const MotionReport& report) {
   } else if (after.then == Then::decide_again) {
     withdraw(step, after);
   } else {
-    // It keeps its place between the others, but for objects that have come into its way.
+    // Its orders still apply. Objects may have come into its way.
     enter(step, Admitted{});
   }
   release(step);

@@ -63,12 +63,12 @@ class Transitions : public StateWriter {
   void set_planned(const Step& step, bool is_planned);
   // Gives the job this alternative, at position `place` of that arm's queue.
   void take_alternative(const Step& step, std::size_t which, std::size_t place);
-  // The job has its path again that had the number `motion`, and `lanes` are what was known then.
+  // Restores the path with the number `motion`, and the sequence as it was then (`lanes`).
   void restore(const Step& step, std::uint64_t motion, Lanes lanes);
   void put_in_order(const std::vector<JobId>& jobs);
   // Changes the terms, the priority also in the orders.
   void amend(const Step& step, const AmendedTerms& terms);
-  // The job does not begin while `other` waits; nullopt: it may.
+  // The job does not begin while `other` waits; nullopt ends this.
   void let_pass(const Step& step, std::optional<JobId> other);
 
  private:

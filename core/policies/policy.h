@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string_view>
+#include <variant>
 
 #include "core/base/problem.h"
 #include "core/coordination/motion.h"
@@ -38,6 +39,10 @@ struct Policy {
   PassingOrders (*decide)(const OrderQuestion& question);
   Capacity capacity = Capacity::any;
   Lookahead lookahead = {};
+
+  // False under TimedDiscrete: without passing orders and certificates, nothing is promised between
+  // its time steps.
+  [[nodiscard]] bool has_orders() const { return !std::holds_alternative<TimedDiscrete>(method); }
 };
 
 // Returns the named policy with the cell's settings. Problem (invalid, "unknown-policy"): the name

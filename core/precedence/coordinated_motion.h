@@ -18,8 +18,8 @@ struct Outlook {
   double pace = 1.0;  // cell time per trajectory time, as measured and predicted
 };
 
-// An admitted motion, or a candidate for admission. In a list, the motions of one arm are in
-// running order, and each begins where the previous one ends.
+// A view of a step, admitted or a candidate, for the precedence graph. In a list, the motions of
+// one arm are in running order, and each begins where the previous one ends.
 struct CoordinatedMotion {
   StepId step;
   std::vector<ArmId> arms;

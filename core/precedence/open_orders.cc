@@ -56,7 +56,7 @@ std::optional<std::size_t> OpenOrders::index_of(StepId step) const {
   return static_cast<std::size_t>(found - motions_.begin());
 }
 
-// ---- What may be decided ----
+// ---- Open orders ----
 
 void OpenOrders::add(const PairRegions& pair) {
   const std::size_t a = *index_of(pair.a);
@@ -73,7 +73,7 @@ void OpenOrders::add(const PairRegions& pair) {
   for (const ConflictRegion& region : pair.regions) add(a, *b, region);
 }
 
-// It may be turned as long as the first one has no authority in it.
+// The order may be reversed until the first motion has authority in the region.
 void OpenOrders::add_decided(const Precedence& precedence) {
   const std::size_t a = *index_of(precedence.first());
   const std::size_t b = *index_of(precedence.second());
@@ -115,8 +115,8 @@ bool OpenOrders::may_pass_second(std::size_t second, std::size_t first,
   return !reaches(second, box.from_a, first) && !rests_at(first, box.to_b, second);
 }
 
-// It has, or may have, entered what begins at `from` when the other one passes: it stands at its
-// start now, or does before the other one begins, which follows what brings it there.
+// Returns true if the motion has, or may have, entered what begins at `from` when the other one
+// passes. At its start it is there now, or gets there by a motion before the other one.
 bool OpenOrders::reaches(std::size_t motion, Duration from, std::size_t other) const {
   if (from < motions_[motion].authority) return true;
   const bool at_start = from <= Duration{} && motions_[motion].authority <= Duration{};
@@ -128,7 +128,8 @@ bool OpenOrders::reaches(std::size_t motion, Duration from, std::size_t other) c
          });
 }
 
-// It comes to rest there and nothing takes it away, or only what follows the other one.
+// Returns true if the motion ends before `to`, and no motion takes its arms away before the other
+// one.
 bool OpenOrders::rests_at(std::size_t motion, Duration to, std::size_t other) const {
   return to >= motions_[motion].duration &&
          !resting_for(motions_, motions_[motion].arms, motion, other).empty();
@@ -221,7 +222,7 @@ void OpenOrders::leave_open(const OrderChoice& choice) {
   for (const Member& member : choice.members) orders_[member.order].is_open = true;
 }
 
-// ---- What follows from it ----
+// ---- Predictions ----
 
 const Precedence& OpenOrders::precedence(OpenOrder& order, bool a_first, bool at_start) {
   const CoordinatedMotion& first = motions_[a_first ? order.a : order.b];
@@ -264,7 +265,7 @@ std::vector<Dependency> OpenOrders::dependencies(std::size_t orders) {
   return dependencies;
 }
 
-// What rests in the way of a motion may be what a candidate takes away.
+// Ignores what holds the admitted motions now, because a candidate may take it away.
 Prediction OpenOrders::predicted() {
   return predict(motions_, chains_, dependencies(orders_.size()));
 }
@@ -291,7 +292,7 @@ PassingOrders OpenOrders::refused(const std::vector<std::size_t>& because) {
   return std::move(answer_);
 }
 
-// The candidates' own orders in the ring say why.
+// Reports the candidates' own orders in the cycle.
 PassingOrders OpenOrders::stuck(const Prediction& prediction) {
   const auto in_ring = [&](std::size_t motion) {
     return std::ranges::find(prediction.ring, motion) != prediction.ring.end();

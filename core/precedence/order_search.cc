@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-constexpr double kLeast_s = 1e-3;  // what is nearer is as good
+constexpr double kLeast_s = 1e-3;  // smaller differences do not matter
 
 }  // namespace
 
@@ -68,7 +68,8 @@ bool OrderSearch::is_later(const Node& a, const Node& b) {
   return a.cost != b.cost ? a.cost > b.cost : a.number > b.number;
 }
 
-// Those on the lanes of candidates, and of what these meet; of no candidates all are.
+// Returns the motions in the queues of the candidates and of motions that they meet; all motions if
+// there are no candidates.
 std::vector<bool> OrderSearch::motions_concerned() const {
   const auto& motions = open_.motions();
   if (open_.first_candidate() == motions.size()) return std::vector<bool>(motions.size(), true);
@@ -128,7 +129,7 @@ OrderSearch::Node OrderSearch::made(std::vector<Side> sides) {
   return {std::move(sides), std::move(prediction), cost, made_++};
 }
 
-// The open choice of which first neither side holds by itself.
+// Returns the open choice that the prediction violates first, whichever side passes first.
 std::optional<std::size_t> OrderSearch::first_broken(const Node& node) {
   std::optional<std::size_t> first;
   Duration at{};
@@ -146,7 +147,8 @@ std::optional<std::size_t> OrderSearch::first_broken(const Node& node) {
   return first;
 }
 
-// Down to where nothing is broken, on the cheaper side each time; the other one is kept for later.
+// Decides one violated choice after the other, each on its cheaper side. Keeps the other sides for
+// later.
 void OrderSearch::dive(Node node) {
   for (;;) {
     if (!node.prediction.stuck.empty() || !is_better(node.cost)) return;
@@ -164,7 +166,8 @@ void OrderSearch::dive(Node node) {
   }
 }
 
-// To stop on the way costs time; to wait at the start may keep others waiting for that place.
+// Compares two places to wait. A stop on the path costs time; at its start, an arm may block
+// others.
 OrderSearch::Node OrderSearch::cheaper_way(const Node& node, std::size_t choice, bool first) {
   std::vector<Side> sides = node.sides;
   sides[choice] = {first ? Side::first : Side::other, false};
@@ -185,7 +188,7 @@ void OrderSearch::wait_where_it_is_cheaper() {
   }
 }
 
-// Everything comes to its end: what was left open is set as it comes.
+// Stores the node if it is the best one. Open choices are set as the prediction has them.
 void OrderSearch::note(const Node& node) {
   if (!is_better(node.cost)) return;
   best_ = node;

@@ -1,4 +1,4 @@
-// Orders that a start by the clock makes.
+// Chooses orders that let a motion start by the clock.
 #include <algorithm>
 #include <utility>
 
@@ -7,9 +7,9 @@
 namespace armloom {
 namespace {
 
-// By its line a motion passes second if it comes to each box after the other one has left it, first
-// if it has left each before the other one goes into it. So each order has a latest start for the
-// one and an earliest start for the other: they are read from the boxes once.
+// The candidate's progress by the clock. It passes second if it reaches each box after the other
+// motion has left it, and first if it leaves each box before the other one enters. So each order
+// has a latest start for first and an earliest start for second, read from the boxes once.
 class Line {
  public:
   Line(const OpenOrders& open, const Prediction& before) : open_(open) {
@@ -21,8 +21,7 @@ class Line {
     starts_.erase(std::ranges::unique(starts_).begin(), starts_.end());
   }
 
-  // The starts that could be the first one that is possible: now, and as the other one leaves a box
-  // of some region. Ascending.
+  // Returns the starts to try, ascending: now, and whenever the other motion leaves a box.
   [[nodiscard]] const std::vector<Duration>& starts() const { return starts_; }
 
   // Returns false if no side is free in some region when the candidate begins then.
@@ -31,7 +30,8 @@ class Line {
     return behind == closed_.begin() || (behind - 1)->before <= start;
   }
 
-  // Whether the candidate passes first there when it begins then; nothing: it is neither.
+  // Returns true if the candidate passes first with this start, false if second; nullopt if
+  // neither.
   [[nodiscard]] std::optional<bool> passes_first(std::size_t order, Duration start) const {
     const Window& window = windows_[order];
     if (start <= window.first_until) return true;
@@ -93,8 +93,8 @@ class Line {
   std::vector<Duration> starts_{Duration{}};
 };
 
-// Sets the candidate's orders as its line passes, and leaves those of before. Returns those that it
-// passes on no side, or on one where it may not.
+// Sets the candidate's orders as it passes, and keeps the decided ones. Returns the orders with no
+// possible or no permitted side.
 std::vector<std::size_t> set_by_line(OpenOrders& open, const Line& line, Duration start) {
   std::vector<std::size_t> in_the_way;
   for (OrderChoice& choice : open.choices()) {

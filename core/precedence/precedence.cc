@@ -24,7 +24,7 @@ Precedence::Precedence(StepId a, StepId b, const ConflictRegion& region, bool a_
   std::vector<ProgressBox> boxes = region_.boxes;
   std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);
   Duration begins{};  // with `first` so far, `second` passes without a stop
-  // From the last box back: what still lies ahead of `first` holds `second` at its nearest edge.
+  // Goes back from the last box: boxes ahead of `first` hold `second` at their nearest edge.
   for (const ProgressBox& box : boxes) {
     const Duration limit = std::max(Duration{}, box.from_b - kShortOf);
     begins = std::max(begins, box.to_a - paced(limit, pace_ratio));

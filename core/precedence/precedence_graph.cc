@@ -20,8 +20,7 @@ std::size_t PrecedenceGraph::index_of(StepId step) const {
 void PrecedenceGraph::admit(const std::vector<CoordinatedMotion>& candidates,
                             const PassingOrders& orders) {
   motions_.insert(motions_.end(), candidates.begin(), candidates.end());
-  // The regions of a candidate that takes an arm away tell from now on what that arm is in the way
-  // of.
+  // A candidate that takes an arm away has regions of its own for what the arm blocks.
   for (Rest& rest : rests_) {
     const std::size_t held = index_of(rest.order.second());
     rest.arms = resting_for(motions_, rest.arms, held, held);
@@ -159,8 +158,8 @@ void PrecedenceGraph::abandon(StepId step, Duration rests_at, Duration farthest)
   erase(step);
 }
 
-// With `brought_by`, that motion brings the arms there. Then this is only about motions that share
-// an arm with it, because they have no regions with it. For all others its goal tells the same.
+// If the motion `brought_by` brings the arms there, only motions that share an arm with it are
+// handled, because they have no regions with it. For all others its goal has the same effect.
 void PrecedenceGraph::come_to_rest(StepId step, const std::vector<ArmId>& arms, Duration at,
                                    Duration farthest, std::optional<std::size_t> brought_by) {
   for (const Precedence& order : precedences_) {

@@ -9,14 +9,14 @@ constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
 using Stage = Prediction::Stage;
 
-// A place that a motion may not pass before another one has got somewhere.
+// A limit that a motion may not pass before another motion has reached `until`.
 struct Gate {
   Duration limit;
-  std::size_t other;  // nobody: it stays closed
+  std::size_t other;  // kNobody: it stays closed
   Duration until;
 };
 
-// Precondition: it comes there.
+// Precondition: the motion reaches `progress`.
 Duration time_at(std::span<const Stage> stages, Duration progress, double pace) {
   if (progress <= stages.front().progress) return Duration{};
   const auto after = std::ranges::lower_bound(stages, progress, {}, &Stage::progress);
@@ -26,8 +26,8 @@ Duration time_at(std::span<const Stage> stages, Duration progress, double pace) 
 
 }  // namespace
 
-// All motions at once, each as far as is known of those that it waits for. What belongs to each
-// motion stands side by side in one array: nothing is allocated by motion.
+// Predicts all motions at once, each as far as the motions that it waits for are predicted. The
+// data of all motions are in shared arrays, so that no motion allocates memory.
 class Race {
  public:
   Race(std::span<const CoordinatedMotion> motions, const MotionChains& chains,
@@ -42,7 +42,7 @@ class Race {
     std::size_t stages = 0;
     for (std::size_t m = 0; m < motions.size(); ++m) {
       prediction_.first_[m] = stages;
-      // Its beginning, a stand, two at each gate, its end.
+      // Its start, a rest, two at each gate, its end.
       stages += 3 + 2 * (runners_[m].gates_end - runners_[m].next_gate);
     }
     prediction_.stages_.resize(stages);
@@ -72,7 +72,7 @@ class Race {
     bool ended = false;
   };
 
-  // By motion, and of each by limit.
+  // Sorts the gates by motion, then by limit.
   void place_gates(const std::vector<Dependency>& dependencies, const HeldAt& held_at) {
     const auto each_gate = [&](auto&& take) {
       for (const Dependency& dependency : dependencies) {
@@ -116,7 +116,7 @@ class Race {
     prediction_.stages_[prediction_.first_[m] + prediction_.count_[m]++] = stage;
   }
 
-  // Where one that is stuck stands in the end.
+  // Adds the stage in which a stuck motion comes to rest.
   void come_to_gate(std::size_t m) {
     if (prediction_.count_[m] == 0) return;
     const Stage here = prediction_.stages(m).back();
@@ -125,7 +125,7 @@ class Race {
       add_stage(m, {limit, here.time + time_for(m, limit - here.progress)});
   }
 
-  // When it comes to `progress`; nothing: not known yet.
+  // Returns when the motion reaches `progress`; nullopt if that is not predicted yet.
   [[nodiscard]] std::optional<Duration> comes_to(std::size_t m, Duration progress) const {
     const Runner& runner = runners_[m];
     const auto stages = prediction_.stages(m);
@@ -137,7 +137,7 @@ class Race {
     return time_at(stages, std::min(progress, motions_[m].duration), motions_[m].outlook.pace);
   }
 
-  // Whether it may leave its start.
+  // Returns true if the motion may leave its start.
   bool sets_out(std::size_t m) {
     const CoordinatedMotion& motion = motions_[m];
     Duration start{};
@@ -154,7 +154,7 @@ class Race {
     return true;
   }
 
-  // As far as is known; whether that is any farther.
+  // Predicts the motion as far as possible. Returns true if it got any farther.
   bool advance(std::size_t m) {
     Runner& runner = runners_[m];
     if (runner.ended) return false;
@@ -186,7 +186,7 @@ class Race {
     return true;
   }
 
-  // Every one that is stuck waits for one that is stuck.
+  // Returns a cycle: every stuck motion waits for a stuck motion.
   [[nodiscard]] std::vector<std::size_t> ring_from(std::size_t start) const {
     std::vector<std::size_t> way;
     std::size_t at = start;

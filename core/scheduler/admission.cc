@@ -41,7 +41,7 @@ std::optional<StepId> next_recheck(const State& state) {
   return next;
 }
 
-// Of what waits, if these go.
+// Returns what remains of the safe sequence if these steps are admitted.
 SafeSequence::Outlook outlook_with(Transitions& state, const std::vector<StepId>& steps) {
   return state.lanes().after(steps, state->jobs, state->arms);
 }
@@ -86,7 +86,8 @@ void admit(Transitions& state, const std::vector<StepId>& steps,
   note_overtaken(state, steps);
 }
 
-// It was stopped on its way; its orders stand, if nothing has come to rest there meanwhile.
+// Readmits a motion that was stopped on its path, with its orders. It waits instead if an arm has
+// come to rest in its way.
 void go_on(Transitions& state, const Step& step, const Verdict& verdict) {
   std::vector<Wait> waits = waits_for_rest(step, verdict);
   if (!waits.empty()) return put_off(state, step, std::move(waits));
@@ -96,7 +97,7 @@ void go_on(Transitions& state, const Step& step, const Verdict& verdict) {
 
 }  // namespace
 
-// ---- What is asked ----
+// ---- Questions ----
 
 bool Admission::ask_next(Transitions& state, const Turns& turns, const WaitCycles& cycles) {
   if (open_) return false;
@@ -169,13 +170,13 @@ void Admission::ask_yield(Transitions& state, YieldTrial move) {
   state.effect(Judge{std::move(question)});
 }
 
-// ---- What an answer means ----
+// ---- Answers ----
 
 void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) {
   if (!open_ || open_->version != input.verdict.version) return;
   OpenQuestion question = std::move(*open_);
   open_.reset();
-  if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
+  if (input.verdict.interrupted) return;  // void: asked again if still needed
   if (question.version >= state->around.scene_since) {
     state.lanes().learn(question.passages, input.verdict, state->jobs);
   }
@@ -194,14 +195,14 @@ void Admission::on(const Judged& input, Transitions& state, WaitCycles& cycles) 
     }
     case Purpose::recheck: {
       const Step& step = state->jobs.at(question.steps.front());
-      // It stays in question until it is found free, also if it has not moved.
+      // It stays in question until it is found free.
       if (!holds_back(state, step, input.verdict)) note_free(state, step);
       return;
     }
     case Purpose::option:
       return answer_option(state, input.verdict);
     case Purpose::start:
-      // What could take the turn too has come meanwhile: all of them are asked about.
+      // Further options have come meanwhile. Then all options are checked.
       if (question.is_only_option && options_of(state, question.steps.front().job).size() > 1)
         return;
       return answer_start(state, input.verdict, question.steps);
@@ -244,7 +245,7 @@ void Admission::answer_start(Transitions& state, const Verdict& verdict,
   if (is_asked_again(state, first, verdict)) return;
   if (steps.size() == 1) return refuse(state, first, verdict);
   if (tries_together(state, steps, false)) return;
-  put_off(state, first, first.judgement().found);  // one that was to help it cannot go
+  put_off(state, first, first.judgement().found);  // another job of its group cannot go
 }
 
 void Admission::decide(Transitions& state, const Verdict& verdict,
@@ -263,8 +264,7 @@ void Admission::decide(Transitions& state, const Verdict& verdict,
   const PassingOrders orders =
       state->policy->decide(state->graph.question(candidates, verdict.regions));
   const bool can_go = orders.blockers.empty();
-  if (!can_go && is_asked_again(state, first, verdict))
-    return;  // what stands against it is not known yet
+  if (!can_go && is_asked_again(state, first, verdict)) return;  // its blockers are not known yet
   if (can_go && take_arms_that_remain(state, steps)) return;
   if (steps.size() == 1 && weighs_detour(state, first, verdict.regions, orders)) return;
   if (tries_together(state, steps, can_go)) return;
@@ -291,14 +291,14 @@ void Admission::decide(Transitions& state, const Verdict& verdict,
   put_off(state, first, first.judgement().found);
 }
 
-// Whether the jobs go; else they wait, or what has to be known is asked.
+// Returns true if the jobs may be admitted. Otherwise they wait, or the next question is asked.
 bool Admission::leaves_a_sequence(Transitions& state, const std::vector<StepId>& steps) {
   auto outlook = outlook_with(state, steps);
   const Step& first = state->jobs.at(steps.front());
   if (!outlook.unknown.empty()) {
     ask(state, steps, std::move(outlook));
   } else if (outlook.first && steps.size() > 1) {
-    put_off(state, first, first.judgement().found);  // not so
+    put_off(state, first, first.judgement().found);  // a group does not wait in turn
   } else if (outlook.first) {
     wait_in_turn(state, first, outlook);
   } else {
@@ -307,8 +307,8 @@ bool Admission::leaves_a_sequence(Transitions& state, const std::vector<StepId>&
   return false;
 }
 
-// For some of what waits there is no order one by one, whether these go or not: all are tried as
-// one; where that fails too, these go alone. Whether something else is asked now.
+// Used if some waiting jobs fit into no sequence. First tries all waiting jobs as one group; if
+// that fails, these steps alone. Returns true if a question was asked.
 bool Admission::tries_together(Transitions& state, const std::vector<StepId>& steps, bool can_go) {
   if (!state->policy->lookahead.admits_groups) return false;
   const bool tried = together_ && together_->version == state->version();
@@ -320,7 +320,7 @@ bool Admission::tries_together(Transitions& state, const std::vector<StepId>& st
   }
   if (tried) return false;
   auto outlook = outlook_with(state, steps);
-  if (!outlook.ahead.empty()) {  // others have come meanwhile
+  if (!outlook.ahead.empty()) {  // they are not checked yet
     ask(state, steps, std::move(outlook));
     return true;
   }

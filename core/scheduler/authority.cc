@@ -39,7 +39,7 @@ void dispatch_if_ready(Transitions& state, const Step& step) {
   if (limit <= step.progress && step.progress < step.trajectory->duration()) {
     const auto held = state->graph.held_back(step.id);
     if (held && held->arm && !step.has_started()) return state.withdraw(step, {});
-    pause_at_rest(state, step);  // stopped on its way: it waits there until it may go on
+    pause_at_rest(state, step);  // it was stopped on its path
     explain_pause(state, step);
     return;
   }
@@ -71,7 +71,7 @@ void go_on(Transitions& state, const Step& step) {
 
 }  // namespace
 
-// At share 0 there is no such time.
+// Never at a speed override of 0.
 TimePoint overrun_after(const State& state, const Step& step) {
   const auto& arms = step.trajectory->arms();
   if (state.speed.effective(arms) == 0.0) return TimePoint::max();

@@ -20,7 +20,7 @@ bool overruns(Transitions& state, const Step& step) {
   return state->now >= next.overrun_at;
 }
 
-// On its path, where only a job of another arm that has none, or another scene, would let it go on.
+// Records since when the job rests on its path for an object, the guard, or an arm without a job.
 void see_whether_in_vain(Transitions& state, const Step& step) {
   const Pause* pause = step.pause();
   if (pause == nullptr) return;
@@ -48,7 +48,7 @@ void fail_overdue(Transitions& state, const Step& step) {
 }
 
 std::optional<TimePoint> deadline_of(const State& state, const Step& step) {
-  if (step.is_replanned_now()) return std::nullopt;  // until that is answered
+  if (step.is_replanned_now()) return std::nullopt;  // until the planner answers
   const auto expiry = expiry_of(state, step);
   const auto* moving = step.in<Moving>();
   if (moving == nullptr || step.job->awaits_record) return expiry;
@@ -58,7 +58,7 @@ std::optional<TimePoint> deadline_of(const State& state, const Step& step) {
 }  // namespace
 
 std::optional<TimePoint> expiry_of(const State& state, const Step& step) {
-  if (step.is_replanned_now()) return std::nullopt;  // until that is answered
+  if (step.is_replanned_now()) return std::nullopt;  // until the planner answers
   if (step.state() == JobState::backlogged)
     return state.speed.when(step.times.backlog_clock + *step.job->terms.backlog_timeout);
   const Pause* pause = step.pause();

@@ -11,13 +11,12 @@
 namespace armloom {
 namespace {
 
-// Where the job leaves this arm of its own.
+// Returns where the job leaves this arm, which it moves.
 const PlacePtr& end_on(const Step& step, ArmId arm) {
   const auto own = std::ranges::find(step.leg.arms, arm) - step.leg.arms.begin();
   return step.leg.to[static_cast<std::size_t>(own)];
 }
 
-// Under policies without orders nothing else tells those who are about to pass.
 Motion::Stands stands_now(const State& state, const Step& step) {
   if (step.in<Held>() != nullptr) return Motion::Stands::stays;
   if (speed_wait(state, step)) return Motion::Stands::may_stay;
@@ -36,7 +35,7 @@ Motion motion_now(const State& state, const Step& step) {
                 .share = state.speed.effective(step.trajectory->arms())};
 }
 
-// Its own motion, or the straight way by which its arm is brought to where that begins.
+// Returns the step's motion; for a passage to its start, the straight line to there.
 TrajectoryPtr motion_of(const Passage& passage, const Cell& cell, const Step& step) {
   if (passage.from == nullptr) return step.trajectory;
   const WaitingLeg& leg = step.leg;
@@ -57,7 +56,7 @@ double off_path_of(const State& state, const Step& step) {
     const auto before = state.jobs.queues().before(step, arm);
     const PlacePtr& stands = before ? end_on(state.jobs.at(*before), arm) : state.arms.place(arm);
     const double off_arm = (step.leg.from[i]->q - stands->q).cwiseAbs().maxCoeff();
-    if (off_arm > state.cell->execution.start_tolerance_rad) return 0.0;  // it does not begin so
+    if (off_arm > state.cell->execution.start_tolerance_rad) return 0.0;  // it cannot begin there
     const RobotId robot = state.cell->arm(arm).robot;
     const double error = state.cell->tracking_error(robot);
     if (off_arm > error) off = std::max(off, certified_error(off_arm, error));

@@ -11,12 +11,12 @@
 namespace armloom {
 namespace {
 
-// What a job waits for that is treated as a conflict without being proven one.
+// Detail of a wait for an undecided check, which is treated as a conflict.
 constexpr const char* kUndecided = "undecided: the check exceeded its budget of evaluations";
-// So often is the budget of one job's questions raised.
+// Largest number of times that one job's budget is raised.
 constexpr int kRaisedMax = 12;
 
-// Nothing: it hits itself, and has not begun.
+// Returns the waits for what the check found; nullopt if the job has failed by a self-collision.
 std::optional<std::vector<Wait>> waits_for(Transitions& state, const Step& step,
                                            const Verdict& verdict) {
   if (fails_by_itself(state, step, verdict)) return std::nullopt;
@@ -33,14 +33,15 @@ std::optional<std::vector<Wait>> waits_for(Transitions& state, const Step& step,
   return waits;
 }
 
-// As it was found before; what is otherwise by now is seen when ways aside are tried.
+// Returns true if no retreat was found for the same wait. This is kept until retreats are tried
+// again.
 bool has_no_way_aside(const Step& step, const Wait& wait) {
   return std::ranges::any_of(step.waits_on, [&](const Wait& was) {
     return was.has_no_way_aside && was.arm == wait.arm && was.kind == wait.kind;
   });
 }
 
-// Out of the backlog, where it is there.
+// Lets the job wait outside the backlog.
 void stay_queued(Transitions& state, const Step& step, Judgement found) {
   if (gives_detour_up(state, step)) return;
   state.jobs().leave_backlog(step);

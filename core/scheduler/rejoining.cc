@@ -9,8 +9,8 @@
 namespace armloom {
 namespace {
 
-// An arm of a motion of several arms may rest ahead of the job's progress: it is compared with the
-// path there, at points this far apart.
+// An arm of a team may rest ahead of the job's progress. It is compared with the path up to there,
+// at points this far apart.
 constexpr Duration kAheadStep = std::chrono::milliseconds(1);
 
 struct OffPath {
@@ -51,14 +51,13 @@ void rejoin(Transitions& state, ArmId arm) {
   const auto& queue = state->jobs.queues()[arm];
   if (queue.empty() || state->arms.is_stopped(arm)) return;
   const Step& step = state->jobs.at(queue.front());
-  const bool is_in_motion = step.in<Moving>() != nullptr || step.in<Braking>() != nullptr;
-  if (!step.has_started() || is_in_motion) return;
+  if (!step.has_started() || step.is_in_motion()) return;
   const OffPath off = nearest_on_path(state, arm, step);
   if (off.distance <= state->cell->execution.start_tolerance_rad) {
     const bool is_within = off.distance <= state->cell->tracking_error(state->cell->arm(arm).robot);
     if (is_within || off.distance <= step.off_path) return;
     state.jobs().set_off_path(step, off.distance);
-    // Its orders are for the regions of a motion that is nearer to its path.
+    // Its orders assume a motion that is nearer to its path.
     if (state->graph.holds(step.id)) state.withdraw(step, {});
     return;
   }

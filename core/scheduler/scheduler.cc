@@ -76,10 +76,7 @@ void take(Transitions& state, const Unlocated& input) {
 void take(Transitions& state, const Located& input) {
   explain_again(state, state.arms().set_located(input.arm));
   const auto& queue = state->jobs.queues()[input.arm];
-  const Step* head = queue.empty() ? nullptr : &state->jobs.at(queue.front());
-  const bool is_in_motion =
-      head != nullptr && (head->in<Moving>() != nullptr || head->in<Braking>() != nullptr);
-  if (is_in_motion) return;
+  if (!queue.empty() && state->jobs.at(queue.front()).is_in_motion()) return;
   state.locate(input);
   decide_again_beside(state, input.arm);
   rejoin(state, input.arm);
@@ -117,7 +114,7 @@ void take(Transitions& state, const ChangePolicy& input) {
 
 void take(Transitions& state, const Interrupt& input) { state.interrupt(input.keeps_waiting); }
 
-void take(Transitions&, const Wake&) {}  // what follows is all that it asks for
+void take(Transitions&, const Wake&) {}  // settle() does the work
 
 }  // namespace
 
@@ -176,7 +173,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
   return state_.take_effects();
 }
 
-// The order of the rules after every input, with the reason for each place.
+// Runs all rules after an input. The comments give the reason for the place of each rule.
 void Scheduler::settle() {
   expire_and_overrun(state_);  // first, so that no other rule works for a job that ends now
   see_standing(state_);        // before authority is given, so that no motion passes unchecked
@@ -199,7 +196,8 @@ void Scheduler::settle() {
   look_ahead();
 }
 
-// Without anything else having happened. Where all goes as expected, the orders are not due.
+// Returns true if a rule must run although nothing else has happened. If all motions are as
+// predicted, the orders need not be chosen again.
 bool Scheduler::is_due() {
   if (deadline_ && *deadline_ <= state_->now) return true;
   if (!weighs_at_ || *weighs_at_ > state_->now) return false;
@@ -272,7 +270,7 @@ void Scheduler::on(const MotionReport& input) {
   }
 }
 
-// ---- What others read ----
+// ---- Queries ----
 
 bool Scheduler::has_turn_for_actions(JobId job) const {
   const Step* step = find(job);
@@ -301,9 +299,7 @@ std::optional<JobId> Scheduler::occupant(ArmId arm) const {
   const auto& queue = state_->jobs.queues()[arm];
   if (queue.empty()) return std::nullopt;
   const Step& head = state_->jobs.at(queue.front());
-  const bool in_motion =
-      head.in<Moving>() != nullptr || head.in<Braking>() != nullptr || head.in<Held>() != nullptr;
-  return in_motion ? std::optional(head.id.job) : std::nullopt;
+  return head.occupies_its_arms() ? std::optional(head.id.job) : std::nullopt;
 }
 
 void Scheduler::forget(JobId ended) {

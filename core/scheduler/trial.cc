@@ -30,21 +30,21 @@ void Trial::step(const Input& input) {
     if (sent->to_start && sent->blocked_job == job_) approaches_.push_back(sent->job);
   }
   const Step* own = scheduler_.find(job_);
-  if (own == nullptr) return;  // of those that come before it
+  if (own == nullptr) return;  // this was an earlier job
   if (!own->waits_on.empty()) waits_ = own->waits_on;
   const auto wake = scheduler_.wakes_at();
   if (!is_in_ring() || !wake || *wake - now_ > kAfterRingWasTold) return;
-  now_ = *wake;  // its ring has been told
+  now_ = *wake;  // its cycle has been published
   step(Wake{});
 }
 
-// What becomes of the rings of others is no matter of this instant.
+// Ignores deadlock cycles of other jobs.
 bool Trial::is_in_ring() const {
   const auto in_ring = [&](JobId id) { return !scheduler_.find(id)->job->ring.empty(); };
   return in_ring(job_) || std::ranges::any_of(approaches_, in_ring);
 }
 
-// Its arms go to where it begins.
+// Returns true if all moves to its start are under way or done.
 bool Trial::is_on_its_way() const {
   const auto goes = [this](JobId id) {
     const Step& approach = *scheduler_.find(id);
@@ -75,7 +75,7 @@ void Trial::answer(const PlanMade& made) {
 void Trial::answer(Verdict verdict) {
   const Question question = *std::exchange(open_.question, std::nullopt);
   ++judgements_;
-  // Not where an arm is asked about that would have gone aside.
+  // Ignores questions in which an arm has retreated.
   const bool as_arms_stand = question.rest == scheduler_.state().arms.rest();
   const bool of_it = std::ranges::any_of(question.candidates, [this](const Motion& motion) {
     const JobId job = motion.step.job;
@@ -90,7 +90,7 @@ void Trial::answer(Verdict verdict) {
   step(Judged{std::move(verdict)});
 }
 
-// From now.
+// Returns the time from now until the last move to its start ends.
 Duration Trial::approach_ends() const {
   Duration last{};
   for (JobId id : approaches_) {
@@ -102,7 +102,8 @@ Duration Trial::approach_ends() const {
   return last;
 }
 
-// Who waits for its own approach waits for what that waits for: nobody else knows of it yet.
+// Replaces waits for the job's own moves to its start by the waits of these moves, which clients do
+// not know.
 std::vector<Wait> Trial::waits() const {
   std::vector<Wait> waits;
   for (const Wait& wait : waits_) {

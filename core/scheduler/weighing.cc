@@ -11,12 +11,8 @@ namespace armloom {
 namespace {
 
 constexpr Duration kEvery = std::chrono::milliseconds(250);
-// Who has stood for so long is not looked at any more.
+// Motions that have rested for longer are not looked at any more.
 constexpr Duration kStandsForGood = std::chrono::minutes(10);
-
-bool has_no_orders(const State& state) {
-  return std::holds_alternative<TimedDiscrete>(state.policy->method);
-}
 
 }  // namespace
 
@@ -59,8 +55,8 @@ void weigh_again(Transitions& state) {
   state.renew_orders(state->policy->decide(state->graph.question(nobody, nothing)));
 }
 
-// Who moves may be late. Who was stopped may stand for longer than expected, while another one
-// waits for it: that is looked at less and less often.
+// A moving motion may be late. A stopped motion may rest for longer than predicted while another
+// one waits for it; it is looked at less and less often.
 std::optional<TimePoint> weighs_next(const State& state) {
   if (!state.policy->lookahead.weighs_again) return std::nullopt;
   const auto job_of = [&](StepId step) -> const Step& { return state.jobs.at(step); };
@@ -83,7 +79,7 @@ std::optional<TimePoint> weighs_next(const State& state) {
 }
 
 void compare_again(Transitions& state) {
-  if (!has_no_orders(state)) return;
+  if (state->policy->has_orders()) return;
   for (const Step& step : state->jobs.past_queue_now()) {
     state.jobs().put_in_question(step);
     const bool is_kept =
@@ -93,7 +89,7 @@ void compare_again(Transitions& state) {
 }
 
 void see_standing(Transitions& state) {
-  if (!has_no_orders(state)) return;
+  if (state->policy->has_orders()) return;
   bool is_news = false;
   for (const Step& step : state->jobs.past_queue()) {
     const auto* moving = step.in<Moving>();
@@ -108,7 +104,7 @@ void see_standing(Transitions& state) {
 }
 
 std::optional<TimePoint> stands_next(const State& state) {
-  if (!has_no_orders(state)) return std::nullopt;
+  if (state.policy->has_orders()) return std::nullopt;
   std::optional<TimePoint> next;
   for (const Step& step : state.jobs.past_queue()) {
     const auto* moving = step.in<Moving>();

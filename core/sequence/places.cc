@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// Each word mixed by the finalizer of splitmix64 (Steele, Lea, Flood 2014).
+// Mixes each word by the finalizer of splitmix64 (Steele, Lea, Flood 2014).
 std::uint64_t id_of(const std::vector<std::int64_t>& key) {
   std::uint64_t id = 0;
   for (const std::int64_t word : key) {

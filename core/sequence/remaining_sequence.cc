@@ -1,4 +1,4 @@
-// What remains after an admission: the sequence, another order of its first legs, or none.
+// Finds what remains after an admission: the sequence, another order of its first legs, or none.
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// So far the sequence is looked at for a leg that is not in it.
+// Legs of the sequence that are looked at if a leg is admitted that is not in it.
 constexpr std::size_t kFar = 256;
 
 bool among(const std::vector<StepId>& steps, StepId step) {
@@ -23,7 +23,7 @@ bool share_an_arm(const WaitingLeg& a, const WaitingLeg& b) {
 
 }  // namespace
 
-// Depth first, in the order given where that is possible; unknown passages count as free.
+// Searches depth first, in the given order if possible. Unknown passages count as free.
 class SafeSequence::Search {
  public:
   Search(SafeSequence& owner, const Order& legs) : owner_(owner), legs_(legs) {}
@@ -60,7 +60,7 @@ class SafeSequence::Search {
   std::set<std::uint32_t> seen_;
 };
 
-// The legs that would be done after the group instead of before it, and those that come soon.
+// Returns the legs that the group would overtake, and the legs that come soon.
 SafeSequence::Concerned SafeSequence::concerned(const std::vector<StepId>& group,
                                                 const State& then) {
   std::size_t left = 0;
@@ -132,8 +132,8 @@ SafeSequence::Outlook SafeSequence::after(const std::vector<StepId>& group) {
   return outlook;
 }
 
-// A leg cannot come in its turn after the group: another order of the first legs, or the group
-// waits; unless it could not come without the group either.
+// Handles a leg that is blocked after the group: finds another order of the first legs, or returns
+// that the group waits. A leg that is blocked without the group, too, is moved or taken out.
 std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const Order& legs,
                                                         const Walk& walk_then, bool& mended) {
   Leg& blocked = *walk_then.blocked;
@@ -177,7 +177,7 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
   }
   Walk other = walk(stands_, *order);
   if (!other.unknown.empty()) return Outlook{.unknown = std::move(other.unknown)};
-  const bool again = *order == first;  // the leg that is blocked comes later
+  const bool again = *order == first;  // the blocked leg comes later
   if (again) {
     take_out(*now.blocked);
   } else {
@@ -186,9 +186,9 @@ std::optional<SafeSequence::Outlook> SafeSequence::mend(const State& then, const
   return std::nullopt;
 }
 
-// ---- What is in no sequence ----
+// ---- Legs that are not in the sequence ----
 
-// Neither cut, nor behind what is.
+// Returns the legs that are neither cut nor behind one that is.
 SafeSequence::Order SafeSequence::all_that_may_go(const std::vector<StepId>& but) {
   Order legs;
   std::vector<bool> barred(stands_.size(), false);
@@ -224,7 +224,7 @@ void SafeSequence::place_more(std::vector<Passage>& unknown) {
   if (tried_) put_in_order(*order);
 }
 
-// Of many, the first ones behind everything.
+// Places the first of many legs behind the sequence.
 void SafeSequence::place_behind(std::vector<Passage>& unknown) {
   State state = ends_;
   for (auto leg = unplaced_.rbegin(); leg != unplaced_.rend(); ++leg) {
@@ -263,7 +263,7 @@ void SafeSequence::put_in_order(const Order& order) {
   }
 }
 
-// With all that follows it.
+// Takes the leg out, and all legs that follow it.
 void SafeSequence::take_out(Leg& leg) {
   Legs out;
   std::vector<bool> cut_off(stands_.size(), false);

@@ -6,7 +6,7 @@
 #include <utility>
 
 namespace armloom {
-// ---- What waits ----
+// ---- Legs ----
 
 SafeSequence::SafeSequence(const SafeSequence& other)
     : tolerance_(other.tolerance_),
@@ -28,7 +28,7 @@ void SafeSequence::move(State& state, const WaitingLeg& leg) {
   for (std::size_t i = 0; i < leg.arms.size(); ++i) state[leg.arms[i].index()] = leg.to[i];
 }
 
-// The end of its lanes is in the sequence, and so is what it comes after.
+// Returns true if all legs before it on its arms, and all that it comes after, are in the sequence.
 bool SafeSequence::follows(const Leg& leg) const {
   return !leg.cut && std::ranges::all_of(leg.arms, [&](ArmId arm) {
     return unplaced_legs_[arm.index()] == 0;
@@ -45,7 +45,7 @@ void SafeSequence::append(WaitingLeg waiting) {
   assume(*index_.at(step), past);
 }
 
-// What is still to be planned will pass these.
+// Assumes that paths that are not planned yet pass these places.
 void SafeSequence::assume(Leg& leg, const State& past) {
   if (!leg.is_estimate && leg.approaches.empty()) return;
   for (const PlacePtr& place : past) {
@@ -112,13 +112,13 @@ void SafeSequence::renew(std::vector<PlacePtr> stands, const std::vector<Waiting
   ends_ = stands_ = std::move(stands);
   asked_.clear();
   found_.clear();
-  std::unordered_map<StepId, State> past;  // of those of which something is still to be planned
+  std::unordered_map<StepId, State> past;  // of legs with a path to be planned
   State in_turn = stands_;
   for (const WaitingLeg& leg : legs) {
     if (leg.is_estimate || leg.is_approached) past.emplace(leg.step, in_turn);
     move(in_turn, leg);
   }
-  // By the old order; a new one before the first old one that follows it.
+  // Keeps the old order. A new leg comes before the first old leg that follows it.
   std::unordered_map<StepId, const WaitingLeg*> given;
   for (const WaitingLeg& leg : legs) given.emplace(leg.step, &leg);
   std::vector<const WaitingLeg*> order;
@@ -182,7 +182,7 @@ bool SafeSequence::goes_before(StepId first, StepId other) const {
   return std::ranges::find_if(sequence_, is_either)->step == first;
 }
 
-// ---- What is known ----
+// ---- Passages ----
 
 void SafeSequence::learn(const Passage& passage, bool free,
                          std::shared_ptr<const PassageBlock> block) {

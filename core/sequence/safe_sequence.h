@@ -16,7 +16,7 @@ namespace armloom {
 
 struct PassageBlock;  // evidence that a passage is blocked; only stored here
 
-// A leg of the sequence: the motion of a waiting step, from rest to rest.
+// The part of a waiting step that the sequence uses: its motion from rest to rest.
 struct WaitingLeg {
   StepId step;
   std::vector<ArmId> arms;

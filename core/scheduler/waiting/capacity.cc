@@ -13,7 +13,7 @@ namespace {
 // Returns true if the job waits for other jobs, or for an arm that only another job moves away.
 bool stands_in_vain(const State& state, const Step& step) {
   const auto ended_by_jobs = [](const Gate& gate) {
-    return gate.ended_by != EndedBy::planner && gate.ended_by != EndedBy::client;
+    return gate.ended_by != EndedBy::planner && !is_ended_by_client(gate);
   };
   return step.is_waiting() ? any_closed(state, step, ended_by_jobs)
                            : held_where_it_stands(state, step).has_value();

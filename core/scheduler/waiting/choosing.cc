@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// When the goal is reached, if its job goes as predicted, or behind those that wait on its arm.
+// Returns when the job reaches its goal (s): as predicted, or after the jobs that wait before it.
 double arrival_of(const State& state, const Step& step, const Prediction& prediction) {
   const auto& motions = state.graph.motions();
   if (prediction.ends.size() > motions.size()) return to_seconds(prediction.ends.back());
@@ -25,7 +25,7 @@ double arrival_of(const State& state, const Step& step, const Prediction& predic
   return to_seconds(then);
 }
 
-// Of the plan: what is admitted goes as predicted, `job` too, or waits on its arm; then what waits.
+// Returns the plan's cost (choosing.h) if the job goes as predicted, or else waits on its arm.
 double cost_of(const State& state, const Step& step, const Prediction& prediction) {
   if (step.goal) return arrival_of(state, step, prediction);
   std::vector<const Step*> in_front{&step};
@@ -62,7 +62,7 @@ PassingOrders orders_with(const State& state, const std::vector<CoordinatedMotio
   return state.policy->decide(state.graph.question(candidates, regions));
 }
 
-// Nothing: it cannot go as things are.
+// Returns the cost if the job goes now; nullopt if it cannot.
 std::optional<double> cost_with(Transitions& state, JobId job, const Verdict& verdict) {
   if (verdict.kind != Verdict::Kind::free) return std::nullopt;
   const Step& candidate = state->jobs.at(job);
@@ -73,7 +73,7 @@ std::optional<double> cost_with(Transitions& state, JobId job, const Verdict& ve
   return cost_of(state, candidate, orders.prediction);
 }
 
-// It waits behind others of its arm: no less than if nothing met it.
+// Returns a lower bound of the cost if the job waits behind others of its arm.
 std::optional<double> cost_behind_others(Transitions& state, JobId job) {
   const Step& candidate = state->jobs.at(job);
   prepare_choice(state, {candidate.id});
@@ -88,7 +88,7 @@ std::string refusal_of(const State& state, const Step& step, std::size_t alterna
   return state.arms.is_stopped(arm) ? "it is stopped" : "the arm will not be where the job begins";
 }
 
-// By which arms it cannot go as things stand: those of none of its options.
+// Returns the candidate arms that are not among the options, with the reasons.
 std::vector<Choice::Without> without(const State& state, const Step& step,
                                      const std::vector<Option>& options) {
   std::vector<Choice::Without> arms;
@@ -122,7 +122,7 @@ bool Choosing::begin(Transitions& state, JobId turn) {
   return false;
 }
 
-// The others are rated on the way.
+// Rates options that cannot go now, up to the first that can.
 bool Choosing::comes_to_one_that_goes(Transitions& state) {
   for (; rated_.size() < options_.size();
        rated_.push_back({cost_behind_others(state, job()), {}})) {
@@ -143,7 +143,7 @@ bool Choosing::rate(Transitions& state, Verdict verdict) {
   return comes_to_one_that_goes(state);
 }
 
-// Where none can go: the first that was asked about.
+// Returns the cheapest option; if none can go, the first that was checked.
 std::size_t Choosing::best() const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto cost = [&](std::size_t i) { return rated_[i].cost.value_or(kNever); };
@@ -167,7 +167,7 @@ std::optional<Verdict> Choosing::decide(Transitions& state) {
   return std::move(rated_[chosen].verdict);
 }
 
-// Where no other arm can.
+// Notes an arm that is the only possible one.
 void Choosing::note_only_arm(Transitions& state) const {
   const Step& step = state->jobs.at(job());
   if (options_.size() > 1 || step.alternatives.empty()) return;

@@ -48,16 +48,8 @@ Closed behind(const Look& look, const Step& step) {
   return std::nullopt;
 }
 
-void add_behind(const State& state, Edges& edges) {
-  for (const auto& queue : state.jobs.queues()) {
-    for (std::size_t i = 1; i < queue.size(); ++i) {
-      const StepId before = queue[i - 1];
-      if (stands(state, state.jobs.at(before))) edges.push_back({queue[i].job, before.job});
-    }
-  }
-}
-
-// The same for this job and those before it on its arms that `told` does not have yet.
+// Adds an edge from each job to the job before it, in the queues of the step's arms: from the step
+// down to the first step that `told` contains. The queue's first job may move.
 void add_behind(const State& state, const Step& step, Edges& edges,
                 std::set<std::pair<ArmId, StepId>>& told) {
   for (ArmId arm : step.trajectory->arms()) {
@@ -77,7 +69,7 @@ Closed open_arm(const Look& look, const Step& step) {
 }
 
 void add_open_arm(const State& state, const Step& step, Edges& edges) {
-  if (!state.jobs.queues().is_first(step)) return;  // its arms will stand elsewhere by then
+  if (!state.jobs.queues().is_first(step)) return;  // by then its arms rest elsewhere
   if (const auto first = may_go_first(state, step)) edges.push_back({step.id.job, *first});
 }
 
@@ -133,7 +125,8 @@ Closed place(const Look& look, const Step& step) {
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
 }
 
-// A round lets others in by itself while all of it stands: there a place is never part of a cycle.
+// Rounds add no edge: a round whose jobs all stand lets other jobs in, so its places close no
+// cycle.
 void add_place(const State& state, const Step& step, Edges& edges) {
   if (!step.is_waiting() || has_rounds(state)) return;
   const auto taken_by = place_taken_by(state, step);
@@ -157,8 +150,8 @@ bool may_go(const State& state, const Step& step) {
   return step.is_waiting() && !any_closed(state, step, stays);
 }
 
-// No way to its goal was found past where all others will rest. Once one of them is to rest
-// elsewhere, another way is sought (ways/goals.h): until all stand, what it waits for is not known.
+// Returns true if the job's plan goes through other arms and another job may still move. Its path
+// is then planned again (ways/goals.h), so its waits are not final.
 bool may_have_another_way(const State& state, const Step& step) {
   if (step.in<Queued>() == nullptr || !step.goal || !step.goal->way().goes_through) return false;
   return std::ranges::any_of(state.jobs.active(), [&](JobId id) {
@@ -182,7 +175,7 @@ void add_conflict(const State& state, const Step& step, Edges& edges) {
   }
 }
 
-// Without turns it is not known which jobs an aged job holds back: then all.
+// Without turns, an aged job holds back all others.
 Closed aging(const Look& look, const Step& step) {
   const auto old = look.turns != nullptr ? look.turns->held_back_by(step) : any_aged(look.state);
   if (!old) return std::nullopt;
@@ -192,11 +185,11 @@ Closed aging(const Look& look, const Step& step) {
                            .job = *old,
                            .detail = "that job has waited longer than aging_s"});
   }
-  return FoundWaits(step.judgement().found);  // the older one may be about to go
+  return FoundWaits(step.judgement().found);  // the aged job may be about to go
 }
 
-// In the order in which they are checked. Five have no edges: the planner answers; an operator, a
-// signal or a task acts; nobody younger holds back an aged job or the jobs that must precede it.
+// Conditions in the order in which they are checked. Those that the planner, a client or a task
+// ends have no edges. `aging` has none because no younger job holds back an aged job.
 constexpr Gate kGates[] = {
     // another job of its arm precedes it; edges: add_behind(), queue by queue
     {behind, nullptr, EndedBy::queue, Blocks::start, /*of_its_arm=*/true},
@@ -211,11 +204,11 @@ constexpr Gate kGates[] = {
     // one of its arms is stopped
     {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
     // a signal does not have the value at which the job starts
-    {signal, nullptr, EndedBy::client, Blocks::start},
-    // actions of its task before it are not done
-    {actions, nullptr, EndedBy::client, Blocks::start},
+    {signal, nullptr, EndedBy::client, Blocks::start, false, false, /*defers_start=*/true},
+    // actions of its task before it are not done; they may change what its arm holds
+    {actions, nullptr, EndedBy::task, Blocks::plan, false, false, /*defers_start=*/true},
     // the policy allows no further job at the same time
-    {place, add_place, EndedBy::job, Blocks::check, /*of_its_arm=*/false, /*starts_age=*/true},
+    {place, add_place, EndedBy::job, Blocks::check, false, /*starts_age=*/true},
     // checked and not admitted; put_off() starts its age
     {conflict, add_conflict, EndedBy::job, Blocks::check},
     // an aged job goes first
@@ -256,14 +249,10 @@ bool any_closed(const State& state, const Step& step, bool (*counts)(const Gate&
 }
 
 bool lacks_only_actions(const State& state, const Step& step) {
-  const auto others = [](const Gate& gate) { return blocks_start(gate) && gate.closed != actions; };
-  return step.job->awaits_actions && !any_closed(state, step, others);
-}
-
-bool awaits_signal_or_actions(const State& state, const Step& step) {
-  return any_closed(state, step, [](const Gate& gate) {
-    return gate.closed == signal || gate.closed == actions;
-  });
+  const auto others = [](const Gate& gate) {
+    return blocks_start(gate) && !is_ended_by_task(gate);
+  };
+  return any_closed(state, step, is_ended_by_task) && !any_closed(state, step, others);
 }
 
 bool is_at_head(const State& state, const Step& step) {
@@ -280,7 +269,10 @@ bool stands(const State& state, const Step& step) {
 
 WaitsFor waits_for(const State& state) {
   Edges edges;
-  add_behind(state, edges);
+  std::set<std::pair<ArmId, StepId>> behind;
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty()) add_behind(state, state.jobs.at(queue.back()), edges, behind);
+  }
   for (const Step& step : state.jobs.of(state.jobs.active())) {
     if (stands(state, step)) add_gates(state, step, edges);
   }
@@ -321,10 +313,10 @@ FoundWaits found_in_the_way(const State& state, const Step& step) {
   return held ? FoundWaits(std::move(*held)) : FoundWaits();
 }
 
-// What is undecided counts as a conflict: it stays so while nothing moves.
+// An undecided check is treated as a conflict, because it stays undecided while nothing moves.
 std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   const JobBook& jobs = state.jobs;
-  if (wait.kind == Wait::Kind::predecessor) {  // it shall be done before, lest it never can be
+  if (wait.kind == Wait::Kind::predecessor) {  // the safe sequence needs that job first
     const bool still = jobs.active().contains(*wait.job) && stands(state, jobs.at(*wait.job));
     return still ? wait.job : std::nullopt;
   }

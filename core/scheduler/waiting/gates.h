@@ -24,9 +24,8 @@ class FoundWaits {
   std::span<const Wait> found_;
 };
 
-// The view in which a condition is checked: without turns, an admitted job or one that shall be
-// admitted with others; with turns, the next check of a waiting job, as far ahead as the policy
-// looks.
+// Tells what a condition is checked for. Without turns: the start of an admitted job, or admission
+// in a group. With turns: the next check of a waiting job, within the policy's horizon.
 struct Look {
   const State& state;
   const Turns* turns = nullptr;
@@ -37,13 +36,15 @@ enum class Blocks {
   check,  // the check of a waiting job
   place,  // also its place in a round (capacity.h)
   start,  // also its admission in a group, its start once admitted, and the effect of its age
+  plan,   // also the planning of its goal, and of goals behind it on its arm
 };
 enum class EndedBy {
   queue,   // the jobs before it on its arms
   job,     // another job, by moving or ending
   choice,  // the choice of another job's arm, for which no job needs to move
   planner,
-  client,  // an operator, a signal, or an action of its task
+  client,  // an operator or a signal
+  task,    // its own actions
 };
 // A blocking condition: a row of the table in gates.cc. All who ask for conditions read this table.
 struct Gate {
@@ -54,13 +55,19 @@ struct Gate {
   void (*edges)(const State& state, const Step& step, std::vector<WaitsForEdge>&);
   EndedBy ended_by;
   Blocks blocks;
-  bool of_its_arm = false;  // is open for a job that has its turn on another arm
-  bool starts_age = false;  // the job's age starts when it first waits for this
+  bool of_its_arm = false;    // is open for a job that has its turn on another arm
+  bool starts_age = false;    // the job's age starts when it first waits for this
+  bool defers_start = false;  // until then, the start is not compared with the arm's position
 };
-[[nodiscard]] inline bool blocks_start(const Gate& gate) { return gate.blocks == Blocks::start; }
-[[nodiscard]] inline bool is_ended_by_client(const Gate& gate) {
-  return gate.ended_by == EndedBy::client;
+[[nodiscard]] inline bool blocks_start(const Gate& gate) { return gate.blocks >= Blocks::start; }
+[[nodiscard]] inline bool blocks_plan(const Gate& gate) { return gate.blocks >= Blocks::plan; }
+[[nodiscard]] inline bool is_ended_by_task(const Gate& gate) {
+  return gate.ended_by == EndedBy::task;
 }
+[[nodiscard]] inline bool is_ended_by_client(const Gate& gate) {
+  return gate.ended_by == EndedBy::client || is_ended_by_task(gate);
+}
+[[nodiscard]] inline bool defers_start(const Gate& gate) { return gate.defers_start; }
 
 struct ClosedGate {
   const Gate& gate;
@@ -77,8 +84,6 @@ struct ClosedGate {
 
 // Returns true if the job waits for the actions of its task, and could start if they were done.
 [[nodiscard]] bool lacks_only_actions(const State& state, const Step& step);
-// Returns true if the job waits for a signal, or for the actions of its task.
-[[nodiscard]] bool awaits_signal_or_actions(const State& state, const Step& step);
 // Returns true if the job waits for no other job before its start.
 [[nodiscard]] bool is_at_head(const State& state, const Step& step);
 // Returns true if the job cannot move before other jobs have moved.

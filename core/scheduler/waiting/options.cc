@@ -15,11 +15,11 @@ namespace {
 
 ArmId arm_of(const Trajectory& trajectory) { return trajectory.arms().front(); }
 
-// One arm, which it leaves where it was.
+// Returns true if the step moves one arm, and returns it to its start.
 bool is_loop(const Step& step) { return step.leg.arms.size() == 1 && step.leg.from == step.leg.to; }
 
-// A job with several candidate arms has no place yet that it could change. What blocks the start of
-// one job, but not of all jobs of its arm, ties the job to its place.
+// A job with several candidate arms has no position to exchange. A condition that blocks the start
+// of the job, but not of all jobs of its arm, ties it to its position.
 bool may_change_places(const State& state, const Step& step) {
   const auto ties = [](const Gate& gate) { return blocks_start(gate) && !gate.of_its_arm; };
   return step.job->terms.reorderable && step.in<Queued>() != nullptr && step.alternatives.empty() &&
@@ -46,9 +46,8 @@ std::vector<Option> in_any_order(const State& state, const Step& turn) {
   return options;
 }
 
-// When it could go on the arm of this trajectory: when those have ended that are admitted there, as
-// far as the policy looks ahead; when those have gone that came before it; or not, as these lead
-// elsewhere.
+// When the job could go on the arm of this trajectory: now, within the policy's horizon; later,
+// after the jobs before it; or never, because these leave the arm elsewhere.
 enum class When { now, later, never };
 When when_on(const State& state, const Step& step, const Trajectory& trajectory) {
   const ArmId arm = arm_of(trajectory);
@@ -87,14 +86,14 @@ std::size_t alternative_now(const Step& step) {
   return static_cast<std::size_t>(now - step.alternatives.begin());
 }
 
-// It waits, and is in no sequence by the arm that it has.
+// Returns true if the job waits and no sequence contains it with its present arm.
 bool is_shut(Transitions& state, const Step& step) {
   return step.in<Queued>() != nullptr &&
          !state.lanes().has_place(step.id, state->jobs, state->arms);
 }
 
-// Takes one by which it is not shut. Returns false if there is none: it keeps what it had, and what
-// is known of that, which would else be asked again, for ever.
+// Gives the job an arm with which a sequence contains it. Returns false if there is none. Then it
+// restores the arm, and what is known about it, which would otherwise be asked again forever.
 bool take_open_alternative(Transitions& state, const Step& step) {
   const std::size_t had = alternative_now(step);
   const std::uint64_t motion = step.leg.motion;
@@ -109,7 +108,7 @@ bool take_open_alternative(Transitions& state, const Step& step) {
   return false;
 }
 
-// It keeps that arm: `why` it cannot do without on the one that it has.
+// Gives the job another arm for good. `why`: the reason against its present arm.
 bool takes_arm_that_remains(Transitions& state, const Step& step, const char* why) {
   const ArmId had = arm_of(*step.trajectory);
   if (!take_open_alternative(state, step)) return false;
@@ -145,7 +144,7 @@ void take_alternative(Transitions& state, const Step& step, std::size_t which) {
   const auto now = std::ranges::find(queue, step.id) - queue.begin();
   auto place = static_cast<std::ptrdiff_t>(place_on(state, step, arm_of(*trajectory)));
   if (step.trajectory == trajectory) {
-    // Jobs that were admitted before this one may wait again: then the older turn goes first.
+    // Jobs that were admitted before this one may wait again. Then the older turn goes first.
     if (now < place) --place;
     if (now == place || step.in<Queued>() == nullptr) return;
   }

@@ -18,8 +18,8 @@ bool is_aged(const State& state, const Step& step) {
          !any_closed(state, step, blocks_start);
 }
 
-// Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
-// stop, a ring.
+// Returns true if no other job can let this one go: it waits for an arm that no job moves, an
+// object or a stop, or is in a deadlock cycle.
 bool waits_beyond_turns(const State& state, const Step& step) {
   if (!step.job->ring.empty()) return true;
   if (const auto closed = first_closed(state, step, blocks_start)) {
@@ -34,19 +34,19 @@ bool waits_beyond_turns(const State& state, const Step& step) {
   });
 }
 
-// It is to be judged by another way (ways/detour.h), and may go by its own.
+// Returns true if the job has a detour while it is checked (ways/detour.h).
 bool has_way_for_a_while(const Step& step) {
   return step.goal && step.goal->detour && step.goal->detour->is_weighed;
 }
 
-// Of an arm's jobs the first that is not admitted; nothing: all are.
+// Returns the arm's first waiting job; nullopt if all are admitted.
 std::optional<JobId> first_that_waits(const State& state, const ArmQueues::Queue& queue) {
   const auto waits = [&](StepId step) { return state.jobs.at(step).is_waiting(); };
   const auto first = std::ranges::find_if(queue, waits);
   return first == queue.end() ? std::nullopt : std::optional(first->job);
 }
 
-// Whose waits may be others than they were told. Ascending.
+// Returns the jobs whose waits may have changed, ascending.
 std::vector<JobId> to_explain(Transitions& state) {
   const std::set<JobId> unexplained = state.take_unexplained();
   std::vector<JobId> jobs;
@@ -67,8 +67,8 @@ std::vector<JobId> to_explain(Transitions& state) {
 
 }  // namespace
 
-// From the most urgent job downwards, each lends its priority to all that it waits for and that
-// nobody more urgent has reached.
+// From the most urgent job on, each lends its priority to the jobs that it waits for, unless a more
+// urgent one has reached them.
 std::map<JobId, int> effective_priorities(const WaitsFor& graph, std::vector<Urgency> jobs) {
   std::ranges::stable_sort(jobs, std::ranges::greater{}, &Urgency::priority);
   std::map<JobId, int> effective;
@@ -135,7 +135,7 @@ std::vector<Turns::Aged> Turns::aged_jobs() const {
 std::optional<JobId> Turns::held_back_by(const Step& step) const {
   if (step.in<Held>() != nullptr) return std::nullopt;
   for (const Aged& a : aged_) {
-    // It has this one's turn: those that are aged for less long do not hold it back either.
+    // The aged job itself, or one that it waits for. Jobs that aged later do not hold it back.
     if (a.job == step.id.job) break;
     if (std::ranges::binary_search(a.goes_first, step.id.job)) break;
     const Step& old = state_.jobs.at(a.job);
@@ -146,7 +146,7 @@ std::optional<JobId> Turns::held_back_by(const Step& step) const {
   return std::nullopt;
 }
 
-// Empty: all are the same.
+// Returns an empty map if all jobs are equally urgent.
 std::map<JobId, int> Turns::urgencies() const {
   if (state_.jobs.active().are_as_urgent()) return {};
   std::vector<Urgency> jobs;
@@ -166,9 +166,9 @@ std::optional<JobId> Turns::next() const {
   const std::map<JobId, int> urgency = urgencies();
   const auto goes_before = [&](const Step& a, const Step& b) {
     if (has_way_for_a_while(a) != has_way_for_a_while(b))
-      return has_way_for_a_while(a);  // lest others count on a way that it may not go
+      return has_way_for_a_while(a);  // others must not rely on a path that it may lose
     if (a.asking.effort != b.asking.effort)
-      return a.asking.effort < b.asking.effort;  // what takes long keeps nobody waiting
+      return a.asking.effort < b.asking.effort;  // long checks come last
     const bool a_held = a.in<Held>() != nullptr;
     const bool b_held = b.in<Held>() != nullptr;
     if (a_held != b_held) return a_held;
@@ -189,7 +189,7 @@ std::optional<JobId> Turns::next() const {
   return best != nullptr ? std::optional(best->id.job) : std::nullopt;
 }
 
-// What is not the first of an arm waits for the one before it, as long as that is the same.
+// Skips jobs behind the first of an arm, whose waits are unchanged.
 Turns explain_waits(Transitions& state) {
   Turns turns(state);
   for (JobId id : to_explain(state)) {
@@ -203,7 +203,7 @@ Turns explain_waits(Transitions& state) {
     }
     if (closed) {
       state.jobs().set_waits(step, closed->waits.all());
-    } else if (waits) {  // is checked next; until then it waits for what its last check found
+    } else if (waits) {  // until it is checked, its last waits stay
       state.jobs().set_waits(step, step.judgement().found);
     }
   }

@@ -19,7 +19,7 @@ bool is_on(const WaitCycle& ring, JobId job) { return std::ranges::find(ring, jo
 
 JobId next_on(const WaitCycle& ring, std::size_t i) { return ring[(i + 1) % ring.size()]; }
 
-// Those whose waits may close a ring: every other job waits behind these.
+// Returns the jobs whose waits may close a cycle. Every other job waits behind them.
 std::vector<JobId> first_jobs(const State& state) {
   std::vector<JobId> first = first_undecided(state);
   for (const Step& head : state.jobs.heads()) first.push_back(head.id.job);
@@ -48,7 +48,7 @@ void untell(Transitions& state, const WaitCycle& ring) {
   }
 }
 
-// An arm that is aside for the sake of another one of the ring comes back first.
+// Lets an arm return first that has retreated for another job of the cycle.
 bool comes_back(Transitions& state, const WaitCycle& ring) {
   for (const Step& step : state->jobs.of(ring)) {
     if (!lets_another_pass(state->jobs, step) || !is_on(ring, *step.job->errand.lets_pass))
@@ -59,7 +59,7 @@ bool comes_back(Transitions& state, const WaitCycle& ring) {
   return false;
 }
 
-// One that is brought to where it begins needs no other job to bring its arm there.
+// A job whose arm the server moves to its start needs no other job for that.
 bool goes_before_open_arm(Transitions& state, const WaitCycle& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Step& step = state->jobs.at(ring[i]);
@@ -85,7 +85,7 @@ bool is_asked(const State& state, const WaitCycle& ring) {
   });
 }
 
-// Whether one of the ring may have another way: they are asked one by one, the last one first.
+// Replans jobs of the cycle one by one, the last one first. Returns true if a replan is open.
 bool goes_around(Transitions& state, const WaitCycle& ring) {
   if (is_asked(state, ring)) return true;
   WaitCycle from_last = ring;
@@ -116,8 +116,8 @@ void WaitCycles::name(Transitions& state) {
   }
 }
 
-// No arm of a ring moves while its jobs wait: what was found in the way stays there until one of
-// them goes, or the scene is another one. Other waits may have opened.
+// Conflicts in a cycle stay until one of its jobs goes or the scene changes, because no arm of it
+// moves. Other waits may end.
 bool WaitCycles::stands_still(const State& state, const Named& named) const {
   const WaitCycle& ring = named.ring;
   const bool all_stand =
@@ -159,9 +159,9 @@ bool WaitCycles::has_lost_one(const State& state, const Step& step) const {
   });
 }
 
-// A move aside gives way, or the last job that a client sent: the others were there before it
-// closed the ring. Not a return, or a move aside on which a client's job counts by now. Returns
-// nullopt if all arms of the ring have lost a job here, and one of it expires in time.
+// Returns the job that fails: a retreat or return that no client's job needs, or else the job that
+// clients submitted last. nullopt if all arms of the cycle have lost a job here, and one of its
+// jobs expires in time.
 std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& ring) const {
   const auto dispensable = [&](JobId id) {
     const Step& step = state.jobs.at(id);

@@ -33,8 +33,8 @@ bool send_to_start(Transitions& state, const Step& head, ArmId arm) {
   return true;
 }
 
-// Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
-// stand.
+// Sends the job's arms to its start, or has this checked first. Returns false if the job must fail.
+// Precondition: the job is the first of its arms, waits, and begins elsewhere.
 bool goes_to_start(Transitions& state, const Step& head) {
   if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
@@ -99,7 +99,7 @@ void keep_those_behind(Transitions& state, const Step& step) {
   state.lanes().renew_later();
 }
 
-// The end of a job of several arms gives each of them a new head: hence until there are none.
+// The end of a job of several arms gives each arm a new first job, so this repeats until none ends.
 void fail_impossible_starts(Transitions& state) {
   const auto arms = static_cast<std::uint32_t>(state->cell->arms.size());
   for (std::uint32_t unchanged = 0, arm = 0; unchanged < arms; arm = (arm + 1) % arms) {
@@ -109,7 +109,7 @@ void fail_impossible_starts(Transitions& state) {
     const Step& head = state->jobs.at(queue.front());
     if (!head.is_waiting() || head.has_started() || !is_at_head(state, head)) continue;
     if (head.goal) continue;  // its way begins where the arm stands
-    if (awaits_signal_or_actions(state, head)) continue;
+    if (any_closed(state, head, defers_start)) continue;
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (head.job->is_held_over && state->arms.stop_of(head)) continue;
     auto mismatch = state->arms.start_mismatch(*state->cell, *head.trajectory);

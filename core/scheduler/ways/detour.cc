@@ -19,28 +19,28 @@ bool may_go_round(const Step& step) {
          !step.is_unplanned() && !step.is_replanned_now() && !step.goal->way().goal.straight;
 }
 
-// When it would be there.
+// Returns the job's arrival with these orders; kNever if it cannot go.
 TimePoint arrival(const State& state, const PassingOrders& orders) {
   const bool goes =
       orders.blockers.empty() && orders.prediction.ends.size() > state.graph.motions().size();
   return goes ? state.now + orders.prediction.ends.back() : kNever;
 }
 
-// If nobody met it on its way.
+// Returns the arrival if no other motion were in the way.
 TimePoint soonest(const State& state, const Step& step, const PassingOrders& orders) {
   return state.now + free_at(state, step.goal->way().goal.arm, orders.prediction) +
          state.time_for(*step.trajectory);
 }
 
-// From when to when of its own time the other motion is in the way there.
+// Returns from when to when, in its own time, the other motion is in the way.
 std::pair<Duration, Duration> holds(const ConflictRegion& region) {
   const auto from = std::ranges::min_element(region.boxes, {}, &ProgressBox::from_b)->from_b;
   const auto to = std::ranges::max_element(region.boxes, {}, &ProgressBox::to_b)->to_b;
   return {from, to};
 }
 
-// Where each of the others is half-way through the longest time for which it is in the way; all
-// else where it rests, or will.
+// Returns the positions to avoid: other motions in the middle of their longest conflict with the
+// job, and all other arms where they rest or will rest.
 Configuration places_held(const State& state, const Step& step,
                           const std::vector<PairRegions>& regions) {
   Configuration at = state.arms.rest();
@@ -79,12 +79,12 @@ void ask(Transitions& state, const Step& step, Detour detour) {
   state.jobs().set(step, std::move(detour));
 }
 
-// Whether another one is worth the question.
+// Returns true if another detour is worth a request.
 bool goes_on(const Detour& detour) {
   return detour.arrives > detour.soon_enough && detour.request.tries < kDetoursMax;
 }
 
-// Of those that were weighed. Whether that is another one than it had.
+// Gives the job the best path so far. Returns true if its path changed.
 bool go_by_best(Transitions& state, const Step& step, Detour detour) {
   const TrajectoryPtr best = detour.best;
   detour.is_weighed = false;
@@ -94,8 +94,8 @@ bool go_by_best(Transitions& state, const Step& step, Detour detour) {
   return true;
 }
 
-// It has been judged by another way. Whether it is to be judged once more: by a further one, or by
-// the best of them.
+// Rates the path with which the job was checked. Then requests a further detour, or gives the job
+// its best path. Returns true if the job must be checked again.
 bool rate(Transitions& state, const Step& step, Detour detour, TimePoint arrives) {
   if (arrives != kNever && arrives + Choosing::kWorthwhile < detour.arrives) {
     detour.best = step.trajectory;
@@ -104,7 +104,7 @@ bool rate(Transitions& state, const Step& step, Detour detour, TimePoint arrives
     detour.arrives = arrives;
   }
   const bool asks_on = goes_on(detour);
-  // Meanwhile it has the best of them: what others leave it has to be a way that it may go.
+  // Until the next plan arrives, the job has its best path, because other jobs rely on it.
   const bool is_another = go_by_best(state, step, std::move(detour));
   if (asks_on) ask(state, step, *step.goal->detour);
   return asks_on || is_another;
@@ -154,7 +154,8 @@ void take_detour(Transitions& state, const Step& step, const PlanMade& answer) {
                     detour.request.asked_at >= state->around.scene_since &&
                     answer.trajectory->start().isApprox(detour.best->start());
   const bool is_sooner = fits && state->now + state->time_for(*answer.trajectory) < detour.arrives;
-  // One that takes longer than the best says nothing of the next one; that there is none does.
+  // A detour that is too long says nothing about the next one. If there is no detour, no further
+  // one is requested.
   if (fits && !is_sooner && goes_on(detour)) return ask(state, step, std::move(detour));
   if (!is_sooner) return (void)go_by_best(state, step, std::move(detour));
   detour.is_weighed = true;

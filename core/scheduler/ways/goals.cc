@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
 #include "core/scheduler/ways/path_requests.h"
 #include "core/trajectory/joints_elsewhere.h"
@@ -12,24 +13,24 @@
 namespace armloom {
 namespace {
 
-// The arm is where it was, or was to be, when the question was asked.
+// Returns true if the arm is where the last question for this path assumed it.
 bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at, ArmId arm) {
   const auto& joints = state.cell->arm(arm).joints;
   const Eigen::VectorXd asked = joints_of(way.request.beside, joints);
   return joints_elsewhere(*state.cell, joints, asked, at).empty();
 }
 
-// It was asked for, or made, for where the arm will be and for the scene as it is.
+// Returns true if the last question was about the arm's present start and the present scene.
 bool fits(const State& state, const GoalWay& way, const Configuration& at) {
   const bool is_asked =
       way.request.beside.size() != 0 && way.request.asked_at >= state.around.scene_since;
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 
-// What is admitted will come to its end, whoever came first.
+// Admitted jobs reach their ends, even if they were submitted later.
 bool comes_to_its_end(const Step& step) { return step.in<Queued>() == nullptr; }
 
-// Where the arm comes to rest by what is admitted.
+// Moves `at` to where the arm's admitted jobs leave it.
 void follow_admitted(Configuration& at, const State& state, ArmId arm) {
   for (const Step& step : state.jobs.of(state.jobs.queues()[arm])) {
     if (comes_to_its_end(step)) follow_to_end(at, *state.cell, arm, *step.trajectory);
@@ -44,10 +45,10 @@ bool is_found_in_the_way(const State& state, const Step& step, ArmId arm) {
   });
 }
 
-// Where the arm of this way will be when the job's turn comes; nothing: that is not known yet. What
-// may yet go by another arm counts as if it did.
+// Returns where the arms are at the job's turn; nullopt if that is not known yet. Jobs whose arm is
+// open are assumed to take another one.
 std::optional<Configuration> at_its_turn(const State& state, const Step& step, const GoalWay& way) {
-  if (step.job->awaits_actions) return std::nullopt;  // they change what the arm holds
+  if (any_closed(state, step, blocks_plan)) return std::nullopt;
   const ArmId arm = way.goal.arm;
   Configuration at = state.arms.rest();
   const auto& queue = state.jobs.queues()[arm];
@@ -56,15 +57,14 @@ std::optional<Configuration> at_its_turn(const State& state, const Step& step, c
   for (const Step& other : state.jobs.of(queue)) {
     if (before-- == 0 || other.id == step.id) break;
     if (other.has_open_arm()) continue;
-    if (other.is_unplanned() || other.job->awaits_actions) return std::nullopt;
+    if (other.is_unplanned() || any_closed(state, other, blocks_plan)) return std::nullopt;
     follow_to_end(at, *state.cell, arm, *other.trajectory);
   }
   return at;
 }
 
-// In its turn: all that came before it is done, or is admitted, and its own arm is where the job
-// finds it. Who was found in its way is passed where it comes to rest by what is admitted, whoever
-// came first, and so for as long as it comes to rest there.
+// Asks for a path at the job's turn, when the earlier jobs are done. An arm that was found in the
+// way is passed where its admitted jobs leave it, as long as they leave it there.
 PlanQuestion question_about(const State& state, const Step& step, const GoalWay& way,
                             Configuration at) {
   PlanQuestion question{.goal = way.goal, .seed = step.id.job.value()};
@@ -89,9 +89,9 @@ PlanQuestion question_about(const State& state, const Step& step, const GoalWay&
   return question;
 }
 
-// It waits for an arm that it was not planned beside where that comes to rest: another job has
-// overtaken it, or a move aside of our own has taken that arm there. Where no way past the others
-// was found there may be one as soon as any of them is to rest elsewhere.
+// Returns true if an arm blocks the job and rests elsewhere than planned, because a job or a
+// retreat came first. If no path past the other arms was found, any change of their rests is
+// enough.
 bool is_to_pass_another_place(const State& state, const Step& step, const GoalWay& way,
                               const Configuration& at) {
   Configuration rest = way.goes_through ? question_about(state, step, way, at).at : at;
@@ -110,7 +110,7 @@ bool is_to_pass_another_place(const State& state, const Step& step, const GoalWa
 
 void ask(Transitions& state, const Step& step, std::size_t which, const Configuration& at) {
   GoalWay way = step.goal->ways[which];
-  PlanQuestion question = question_about(state, step, way, at);  // by what was found of it
+  PlanQuestion question = question_about(state, step, way, at);  // needs the last check
   state.set_planned(step, false);
   way.is_planned = false;
   way.refusal.reset();
@@ -127,7 +127,7 @@ enum class Answered {
   not_asked,  // where its arm will be is not known before a job ahead of it is planned
 };
 
-// What is not known of the way, or is out of date, is asked.
+// Requests the plan if it is missing or out of date.
 Answered answer_of(Transitions& state, const Step& step, std::size_t which) {
   const GoalWay& way = step.goal->ways[which];
   if (step.plans.is_open(ForGoal{which})) return Answered::not_yet;
@@ -158,8 +158,8 @@ Answered answer_of(Transitions& state, const Step& step, std::size_t which) {
   return Answered::refused;
 }
 
-// All of them; where one is planned, the job can be judged. An arm on which it cannot be planned
-// yet does not keep it from going on another one: the jobs ahead of it there may wait for this one.
+// Combines the answers for all candidate arms. One plan is enough for a check. An arm without an
+// answer does not hold the job back, because the jobs before it on that arm may wait for this job.
 Answered answer_of(Transitions& state, const Step& step) {
   const JobGoal& goal = *step.goal;
   bool all = true, any_stands_in = false;
@@ -174,7 +174,7 @@ Answered answer_of(Transitions& state, const Step& step) {
   }
   if (!all) return Answered::not_yet;
   if (not_asked && !planned && *not_asked != goal.taken)
-    take_alternative(state, step, *not_asked);  // among the jobs that it waits for
+    take_alternative(state, step, *not_asked);  // so that it queues behind them
   if (not_asked && !(planned && has_turn_on_some_arm(state, step))) return Answered::not_asked;
   if (!planned) return any_stands_in ? Answered::stands_in : Answered::refused;
   if (step.has_open_arm() && *planned != goal.taken) take_alternative(state, step, *planned);
@@ -182,8 +182,9 @@ Answered answer_of(Transitions& state, const Step& step) {
   return Answered::planned;
 }
 
-// Where the first of those lead is not known: more than there are arms would be planned in vain.
-// The first job of an arm is always one of them: those ahead of it may wait for jobs behind it.
+// Returns true if the job's arm may be planned although it is open. Jobs before it have unknown
+// ends, so only as many are planned as there are arms. An arm's first job is always planned,
+// because earlier jobs may wait for jobs behind it.
 bool is_one_of_the_first(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return true;
   std::size_t before = 0;
@@ -194,24 +195,23 @@ bool is_one_of_the_first(const State& state, const Step& step, std::size_t place
   return before < state.cell->arms.size();
 }
 
-// The first of a queue fails at once. A motion of a task behind others is planned again at its
-// turn. Actions of a task before another job may yet move what is in its way.
+// The first job of a queue fails at once. A motion of a task behind others is planned again at its
+// turn. Other jobs are planned again if actions of an earlier task may still clear the way.
 bool may_yet_find_a_path(const State& state, const Step& step, std::size_t place) {
   if (place == 0) return false;
   if (step.job->task) return true;
   return std::ranges::any_of(state.jobs.of(state.jobs.active()), [&](const Step& other) {
-    return other.job->awaits_actions && other.job->turn < step.job->turn;
+    return other.job->turn < step.job->turn && any_closed(state, other, blocks_plan);
   });
 }
 
-// The first of the arm's jobs that is to fail; null: none.
+// Returns the arm's first job that must fail; null if there is none.
 const Step* plan_lane(Transitions& state, ArmId arm) {
-  // As they stand now: a job may be taken to go by another arm meanwhile.
+  // Copied, because a job may move to another arm meanwhile.
   const auto queue = state->jobs.queues()[arm];
   for (std::size_t i = 0; i < std::min(queue.size(), kPlannedAhead); ++i) {
     const Step& step = state->jobs.at(queue[i]);
     if (!step.goal || step.in<Queued>() == nullptr) continue;
-    // What comes of it is seen when it is answered.
     if (step.is_replanned_now()) return nullptr;
     if (step.has_open_arm() && !is_one_of_the_first(state, step, i)) continue;
     const Answered answer = answer_of(state, step);
@@ -236,7 +236,7 @@ bool waits_to_retry(Transitions& state, const Step& step) {
   return true;
 }
 
-// By arm, where there are several.
+// Lists the refusals by arm if there are several.
 std::string why_none(const State& state, const Step& step) {
   if (!step.has_open_arm()) return *step.goal->way().refusal;
   std::string text;

@@ -8,9 +8,9 @@ namespace armloom {
 // condition `plan` until its path is planned. The path begins where the jobs before it leave its
 // arm, and leads around the other arms where those jobs leave them. Then it is a job like any
 // other. If the arm is undecided, a path is planned for each candidate arm, and the arm that
-// arrives first is chosen at the job's turn (waiting/choosing.h). Arms where jobs ahead of it have
-// no plan yet are left out then. Until its turn, the jobs behind it are planned as if it took
-// another arm.
+// arrives first is chosen at the job's turn (waiting/choosing.h). An arm is no candidate while jobs
+// before this one in its queue have no plan. Until the choice, jobs behind this one are planned as
+// if it took another arm.
 
 // If the arm is too close to an object, no path is planned until the scene has changed. At its turn
 // the job waits for the object in the backlog, until its timeout.

@@ -14,14 +14,14 @@
 namespace armloom {
 namespace {
 
-// Slower than this share of its speed no other way is planned.
+// Lowest speed, as a share of the limits, with which a path is planned.
 constexpr double kSlowest = 0.01;
 // Seeds of further tries differ from those of other jobs.
 constexpr std::uint64_t kSeedsOfOneTry = std::uint64_t{1} << 32;
 
 ArmId arm_of(const Step& step) { return step.trajectory->arms().front(); }
 
-// As fast as its own way was at its fastest.
+// Returns the largest share of a speed limit that the motion uses.
 double speed_of(const Cell& cell, const Trajectory& motion) {
   double share = kSlowest;
   for (const SegmentBounds& bounds : motion.bounds()) {
@@ -33,7 +33,7 @@ double speed_of(const Cell& cell, const Trajectory& motion) {
   return std::min(share, 1.0);
 }
 
-// A pose that others begin at is reached as it was planned; a straight line stays one.
+// Keeps the joint positions of the end if another job begins there, and a straight line.
 MotionGoal goal_of(const State& state, const Step& step, Configuration end) {
   const ArmId arm = arm_of(step);
   const bool is_last = state.jobs.queues()[arm].back() == step.id;
@@ -51,7 +51,7 @@ PlanQuestion question_about(const State& state, const Step& step) {
                         .at = at,
                         .seed = step.id.job.value() + kSeedsOfOneTry * step.plans.sent()};
   if (step.another_way->cause != AnotherWay::Cause::client)
-    return question;  // they are what it shall pass
+    return question;  // the path leads around them all
   for (std::uint32_t arm = 0; arm < state.cell->arms.size(); ++arm) {
     const bool moves = ArmId{arm} != question.goal.arm && !state.jobs.queues()[ArmId{arm}].empty();
     if (moves) question.may_move.push_back(ArmId{arm});
@@ -64,7 +64,7 @@ bool is_same_place(const State& state, const Configuration& a, const Configurati
          (a - b).cwiseAbs().maxCoeff() <= state.cell->execution.start_tolerance_rad;
 }
 
-// For what it was asked: the arm begins there, in that scene.
+// Returns true if the arm still rests where the new path begins, in the same scene.
 bool fits(const State& state, const Step& step) {
   const AnotherWay& other = *step.another_way;
   const auto& joints = state.cell->arm(arm_of(step)).joints;

@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// Adds a job of the server that helps `told.blocked_job`, with its priority, and tells of it. It
-// goes before the job `before`, otherwise at the end of the arm's queue. `goes`: the retreat from
-// which it returns, for the sake of `before`. Sets the ids.
+// Adds and announces a job of the server that helps `told.blocked_job` and has its priority. It
+// comes before the job `before`, or last in the arm's queue. With `goes`, it returns the arm after
+// that retreat, for the job `before`. Returns its id.
 JobId add_own(Transitions& state, YieldMove told, Submit job, std::optional<JobId> before,
               std::optional<JobId> goes = {});
 

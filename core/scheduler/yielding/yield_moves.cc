@@ -55,14 +55,14 @@ std::vector<TrajectoryPtr> ways_aside(const Cell& cell, ArmId arm, const Configu
   return ways;
 }
 
-// Ways that are tried for one job of a client and one arm, lest arms go to and fro for ever.
+// Limits the retreats for one client job and arm, so that arms do not move to and fro forever.
 constexpr std::size_t kYieldsMax = 8;
-// So often an arm goes to one and the same place for it: clients may have sent it back there.
+// Limits the retreats to one place. Clients may have sent the arm back from there.
 constexpr std::ptrdiff_t kSamePlaceMax = 2;
 constexpr double kSamePlace = 1e-3;  // relative
 
-// Whether the second motion, pausing at `progress`, is in the way of the first, which lasts so
-// long: unless they stand close now, and the first one leaves that for good.
+// Returns true if the second motion, resting at `progress`, is in the way of the first, which takes
+// `lasts`. The two may be close now if the first leaves the second for good.
 bool rests_in(const PairRegions& pair, Duration progress, Duration lasts) {
   std::vector<std::pair<Duration, Duration>> close;  // when
   for (const ConflictRegion& region : pair.regions) {
@@ -86,8 +86,8 @@ bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
          }) >= kSamePlaceMax;
 }
 
-// A way aside of this arm that has not been tried for the job. Nobody makes way any more for what
-// was to help a job that has ended.
+// Returns a retreat of this arm that has not been tried for the job. There is none for a job that
+// helped an ended job.
 std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId arm) {
   if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report ||
       state.arms.is_stopped(arm)) {
@@ -139,7 +139,7 @@ std::optional<YieldTrial> next_yield(Transitions& state) {
   if (state->cell->scheduling.on_idle_blocker == OnIdleBlocker::report) return std::nullopt;
   for (const Step& step : state->jobs.past_queue()) {
     const std::vector<Wait>* waits = known_waits(state, step);
-    if (waits == nullptr || step.is_replanned_now()) continue;  // perhaps it passes
+    if (waits == nullptr || step.is_replanned_now()) continue;  // the new path may pass
     for (const Wait& wait : *waits) {
       if (!is_idle_arm(state, wait)) continue;
       auto move = untried(state, step, *wait.arm);
@@ -198,7 +198,7 @@ bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& 
   const auto stays = [&](ArmId arm) {
     if (move.is_free) return arm == move.arm;
     const auto& queue = state.jobs.queues()[arm];
-    if (queue.empty()) return false;  // it may go aside too
+    if (queue.empty()) return false;  // it may retreat, too
     return queue.front().job == move.blocked_job ||
            (move.before && state.jobs.at(queue.front()).is_waiting());
   };
