@@ -71,7 +71,7 @@ class Sweep {
 
   std::span<const MovingAxis> axes_;
   Eigen::Vector3d n_;
-  // Of the loose parts. On the stack for arms of usual length, because sweeps are short-lived.
+  // Moments of the loose parts, on the stack for arms of usual length: sweeps are short-lived.
   alignas(Moment) std::array<std::byte, 12 * sizeof(Moment)> memory_;
   std::pmr::monotonic_buffer_resource resource_{memory_.data(), memory_.size()};
   std::pmr::vector<Moment> moments_{&resource_};
