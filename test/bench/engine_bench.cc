@@ -78,11 +78,14 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   const auto right = std::make_shared<const ArmGeometry>(scene->bodies(), ArmId{1});
   const PairSet pairs = pairs_between(scene->bodies(), left->kinematics, right->kinematics);
   CoordinationDiagram::Answer answer;
+  // MotionStore also keeps the scratch. It holds nothing about the motions.
+  const TubePair::Setting setting{&scene->bodies(), &pairs, TubePair::make_scratch()};
+  const auto of_left = MotionTube::make_scratch(*left), of_right = MotionTube::make_scratch(*right);
   for (auto _ : run) {
-    CoordinationDiagram diagram(
-        TubePair({&scene->bodies(), &pairs, TubePair::make_scratch()},
-                 std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0),
-                 std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0)));
+    CoordinationDiagram diagram(TubePair(
+        setting,
+        std::make_shared<MotionTube>(left, motions.trajectories[0], motions.rest, 0.0, of_left),
+        std::make_shared<MotionTube>(right, motions.trajectories[1], motions.rest, 0.0, of_right)));
     answer = diagram.ask(band, MotionChecker::kBudget);
     benchmark::DoNotOptimize(answer);
   }
@@ -134,19 +137,6 @@ void regions_of_pairs(benchmark::State& run) {
   run.counters["blocked_percent"] = 100.0 * blocked / asked / (kMotion_s * kMotion_s);
 }
 
-// Returns the scene in which each hand holds a box of 4 x 4 x 8 cm.
-PlanningScenePtr holding(const PlanningScenePtr& scene) {
-  std::vector<Attachment> held;
-  for (std::uint32_t l = 0; l < scene->cell().links.size(); ++l) {
-    if (!scene->cell().links[l].name.ends_with("panda_hand")) continue;
-    Attachment box{.object = {}, .link = LinkId{l}, .X_LO = Eigen::Isometry3d::Identity()};
-    box.object = {.name = "held_" + std::to_string(l), .shape = Box{{0.04, 0.04, 0.08}}};
-    box.X_LO.translation().z() = 0.12;
-    held.push_back(std::move(box));
-  }
-  return *scene->with({scene->objects(), std::move(held), scene->touch()});
-}
-
 void register_states(const Workloads& workloads) {
   for (const auto& [name, workload] : workloads.states) {
     const States& states = workload;
@@ -160,7 +150,7 @@ void register_states(const Workloads& workloads) {
           });
     };
     decided("decided_contact", {0.0, 0.0}, scene);
-    decided("decided_contact_holding", {0.0, 0.0}, holding(scene));
+    decided("decided_contact_holding", {0.0, 0.0}, holding_boxes(scene));
     // Compares only the capsules of arms, without exact distances.
     benchmark::RegisterBenchmark(("engine/filter/" + name).c_str(), [&states, scene](auto& run) {
       PlacedCell placed(scene->bodies(), {0.0, 0.0});
@@ -178,7 +168,7 @@ void register_states(const Workloads& workloads) {
     const Clearances& limits = scene->cell().clearances;
     const PairLimits clearance{limits.clearance_m, limits.self_clearance_m};
     decided("decided_clearance", clearance, scene);
-    decided("decided_clearance_holding", clearance, holding(scene));
+    decided("decided_clearance_holding", clearance, holding_boxes(scene));
   }
 }
 

@@ -66,6 +66,18 @@ bool any_closer(ExactScene& exact, const Configuration& q, double clearance_m,
 
 }  // namespace
 
+PlanningScenePtr holding_boxes(const PlanningScenePtr& scene) {
+  std::vector<Attachment> held;
+  for (std::uint32_t l = 0; l < scene->cell().links.size(); ++l) {
+    if (!scene->cell().links[l].name.ends_with("panda_hand")) continue;
+    Attachment box{.object = {}, .link = LinkId{l}, .X_LO = Eigen::Isometry3d::Identity()};
+    box.object = {.name = "held_" + std::to_string(l), .shape = Box{{0.04, 0.04, 0.08}}};
+    box.X_LO.translation().z() = 0.12;
+    held.push_back(std::move(box));
+  }
+  return *scene->with({scene->objects(), std::move(held), scene->touch()});
+}
+
 ExactScene::ExactScene(const CellPtr& cell) : scene(PlanningScene::build(cell).value()) {}
 
 double ExactScene::between_arms(const Configuration& q, double horizon_m) {

@@ -10,6 +10,9 @@
 
 namespace armloom::bench {
 
+// Returns the scene in which each Panda's hand holds a box of 4 x 4 x 8 cm.
+[[nodiscard]] PlanningScenePtr holding_boxes(const PlanningScenePtr& scene);
+
 // Exact shapes without the engine's filter: the reference of the benchmarks.
 struct ExactScene {
   PlanningScenePtr scene;

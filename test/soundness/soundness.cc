@@ -20,11 +20,12 @@ std::string milli(double value) {
   return text.str();
 }
 
-PlanningScenePtr scene_without_clearance(const Cell& like) {
-  Cell cell = like;
+PlanningScenePtr scene_without_clearance(const PlanningScene& like) {
+  Cell cell = like.cell();
   cell.clearances.clearance_m = 0.0;
   cell.clearances.self_clearance_m = 0.0;
-  return PlanningScene::build(std::make_shared<const Cell>(std::move(cell))).value();
+  const auto scene = PlanningScene::build(std::make_shared<const Cell>(std::move(cell))).value();
+  return scene->with_attachments(like.attachments()).value();
 }
 
 void measure_certified(const MovingPair& pair, const Truth& truth, const Verdict& verdict,
@@ -116,15 +117,18 @@ std::optional<double> first_in_regions_s(const Verdict& regions, const MovingPai
   return first_s;
 }
 
-Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>& steps_s) {
+Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>& steps_s,
+               bool holding) {
   bench::ExactScene exact(bench::two_pandas());
+  if (holding) exact.scene = bench::holding_boxes(exact.scene);
   const Cell& cell = exact.cell();
   const Pool pool(exact, std::clamp<std::size_t>(count / 5, 40, 400), seed);
   TruthSampler sampler(exact);
   MotionChecker checker(exact.scene);
-  const PlanningScenePtr without = scene_without_clearance(cell);
+  const PlanningScenePtr without = scene_without_clearance(*exact.scene);
   MotionChecker checker_without(without);
   bench::ExactScene exact_without(CellPtr(without, &without->cell()));  // the scene owns the cell
+  exact_without.scene = without;
   Report report;
   for (const double step_s : steps_s) report.discrete.push_back({step_s, {}, {}});
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {

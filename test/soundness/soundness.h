@@ -53,9 +53,10 @@ struct Report {
 };
 inline constexpr double kLoose_m = 0.05;
 
-// Measures pairs of two Pandas, with discrete checks at these steps.
+// Measures pairs of two Pandas, with discrete checks at these steps. If `holding`, each hand holds
+// a box.
 [[nodiscard]] Report measure(std::size_t count, std::uint64_t seed,
-                             const std::vector<double>& steps_s);
+                             const std::vector<double>& steps_s, bool holding = false);
 void print_markdown(const Report& report, std::ostream& out);
 
 }  // namespace armloom::soundness

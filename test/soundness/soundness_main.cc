@@ -16,8 +16,8 @@ std::uint64_t number(int argc, char** argv, int at, std::uint64_t otherwise) {
   return argc > at ? std::strtoull(argv[at], nullptr, 10) : otherwise;
 }
 
-bool pairs(std::size_t count, std::uint64_t seed) {
-  const Report report = measure(count, seed, {0.1, 0.05, 0.01, 0.001});
+bool pairs(std::size_t count, std::uint64_t seed, bool holding) {
+  const Report report = measure(count, seed, {0.1, 0.05, 0.01, 0.001}, holding);
   print_markdown(report, std::cout);
   for (const std::string& failure : report.failures) std::cout << failure << "\n";
   return report.failures.empty() && report.false_alarm_share() <= 0.01;
@@ -78,7 +78,7 @@ bool open(std::size_t count, std::uint64_t seed) {
 }  // namespace
 }  // namespace armloom::soundness
 
-// soundness pairs|filter|open|surfaces [count [seed]]: prints a table of README.md; fails if a
+// soundness pairs|held|filter|open|surfaces [count [seed]]: prints a table of README.md; fails if a
 // claim is violated.
 int main(int argc, char** argv) {
   using namespace armloom::soundness;
@@ -86,12 +86,14 @@ int main(int argc, char** argv) {
     const std::string_view what = argc > 1 ? argv[1] : "pairs";
     const std::uint64_t seed = number(argc, argv, 3, 6);
     if (what == "filter") return filters(number(argc, argv, 2, 200'000), seed) ? 0 : 1;
-    if (what == "pairs") return pairs(number(argc, argv, 2, 3000), seed) ? 0 : 1;
+    if (what == "pairs" || what == "held") {
+      return pairs(number(argc, argv, 2, 3000), seed, what == "held") ? 0 : 1;
+    }
     if (what == "open") return open(number(argc, argv, 2, 1500), number(argc, argv, 3, 77)) ? 0 : 1;
     if (what == "surfaces") {
       return surfaces(number(argc, argv, 2, 60'000), number(argc, argv, 3, 51)) ? 0 : 1;
     }
-    std::cerr << "usage: soundness pairs|filter|open|surfaces [count [seed]]\n";
+    std::cerr << "usage: soundness pairs|held|filter|open|surfaces [count [seed]]\n";
   } catch (const std::exception& e) {
     std::cerr << "soundness: " << e.what() << "\n";
   }

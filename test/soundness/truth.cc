@@ -65,7 +65,9 @@ std::vector<double> longest_levers(const PlanningScene& scene) {
   const Cell& cell = scene.cell();
   std::vector<double> reach(cell.links.size(), 0.0);  // beyond the link's origin
   for (const CollisionBody& part : scene.bodies().bodies) {
-    if (part.link) reach[part.link->index()] = part.sphere.p_PC.norm() + part.sphere.radius_m;
+    if (!part.carrier) continue;
+    double& far = reach[part.carrier->index()];
+    far = std::max(far, (part.X_CP * part.sphere.p_PC).norm() + part.sphere.radius_m);
   }
   std::vector<double> levers(cell.joints.size(), 0.0);
   for (std::size_t l = cell.links.size(); l-- > 0;) {  // parents come before children

@@ -149,6 +149,7 @@ double LineChecker::cut(const Eigen::VectorXd& from, const Eigen::VectorXd& to) 
 std::optional<LineChecker::Found> LineChecker::search(const Eigen::VectorXd& from,
                                                       const Eigen::VectorXd& to) {
   double distance = cut(from, to);
+  line_->place(level_, true);  // at once, because most lines are also compared with the arm itself
   for (Counterpart& each : counterparts_) each.open = level_;
   int looked_at = 0;
   for (bool any = true; any; distance *= 0.5) {

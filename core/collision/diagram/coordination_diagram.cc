@@ -96,6 +96,10 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
   Answer& answer = search.answer;
   std::vector<Open> now;
   std::vector<int> batch;
+  // A narrow band meets few combinations of the stretches of a wide cell. Halving is faster there.
+  const bool is_narrow = !band.swept && pair_.b()->duration() > Duration{} &&
+                         from_seconds(band.lag_a + band.lag_b) <= MotionTube::kStretch;
+  const bool in_stretches = !is_narrow;
   collect(0, search);
   while (!search.open.empty() && !answer.exhausted) {
     now = std::exchange(search.open, {});
@@ -108,7 +112,7 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
       while (batch.size() < std::min<std::size_t>(filter::kLanes, left)) {
         batch.push_back(now[done + batch.size()].cell);
       }
-      if (!batch.empty()) evaluate(batch);
+      if (!batch.empty()) evaluate(batch, in_stretches);
       answer.evaluations += batch.size();
     }
     if (answer.exhausted) break;

@@ -143,7 +143,7 @@ class CoordinationDiagram {
                                  const Resolution& resolution) const;
 
   // A batch of cells (diagram_cells.cc).
-  void evaluate(std::span<const int> cells);
+  void evaluate(std::span<const int> cells, bool in_stretches = true);
   void decide(int cell, std::vector<TubePair::Undecided>& undecided);
   [[nodiscard]] TubePair::Nodes nodes_of(const Node& cell) const;
   void note(Node& cell, const NarrowWitness& found);

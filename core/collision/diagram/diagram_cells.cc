@@ -23,10 +23,10 @@ TubePair::Nodes CoordinationDiagram::nodes_of(const Node& cell) const {
 }
 
 // Precondition: at most eight cells.
-void CoordinationDiagram::evaluate(std::span<const int> cells) {
+void CoordinationDiagram::evaluate(std::span<const int> cells, bool in_stretches) {
   TubePair::Nodes nodes[filter::kLanes];
   for (std::size_t i = 0; i < cells.size(); ++i) nodes[i] = nodes_of(tree_.at(cells[i]));
-  pair_.filter({nodes, cells.size()});
+  pair_.filter({nodes, cells.size()}, in_stretches);
   for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
 }
 

@@ -22,7 +22,7 @@ constexpr double kRounding_m = 1e-5;  // of the kernels, in float
 bool sweeps_near(MotionTube& tube, int node, const std::vector<Ball>& balls, double limit_m) {
   tube.place({&node, 1});
   const MotionTube::Place at = tube.place_of(node);
-  const auto number = [&at](const std::vector<float>& of, std::size_t row) {
+  const auto number = [&at](const float* of, std::size_t row) {
     return static_cast<double>(of[row * filter::kLanes + at.lane]);
   };
   const auto& capsules = tube.kinematics().capsules();

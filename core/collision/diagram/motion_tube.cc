@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/collision/diagram/tube_scratch.h"
 #include "core/collision/filter/kernels.h"
@@ -17,11 +18,38 @@ constexpr double kRounding = 1e-8;
 
 std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>(kLanes); }
 
+Eigen::Map<Eigen::Array<float, kLanes, 1>> lanes_of(float* rows, std::size_t row) {
+  return Eigen::Map<Eigen::Array<float, kLanes, 1>>(rows + lane_size(row));
+}
 Eigen::Map<Eigen::Array<float, kLanes, 1>> lanes_of(std::vector<float>& rows, std::size_t row) {
-  return Eigen::Map<Eigen::Array<float, kLanes, 1>>(rows.data() + lane_size(row));
+  return lanes_of(rows.data(), row);
 }
 
 }  // namespace
+
+MotionTube::Block::Block(const ArmKinematics& arm) {
+  const std::size_t capsule_count = arm.capsules().size(), frame_count = arm.frames().size();
+  const auto spread_count =
+      static_cast<std::size_t>(4 * filter::spread_size(static_cast<int>(capsule_count)));
+  struct Array {
+    float*& of;
+    std::size_t size;
+  };
+  const Array arrays[] = {{capsules, lane_size(6 * capsule_count)},
+                          {motion_bound, lane_size(capsule_count)},
+                          {ball, lane_size(4)},
+                          {spread, spread_count},
+                          {drifts, lane_size(frame_count)},
+                          {looses, lane_size(frame_count)},
+                          {sweeps, lane_size(filter::kSweep * capsule_count)}};
+  std::size_t size = 0;
+  for (const Array& array : arrays) size += array.size;
+  frames = std::make_unique_for_overwrite<double[]>(lane_size(12 * frame_count));
+  floats = std::make_unique_for_overwrite<float[]>(size);
+  float* next = floats.get();
+  for (const Array& array : arrays) array.of = std::exchange(next, next + array.size);
+  bytes = sizeof *this + size * sizeof(float) + lane_size(12 * frame_count) * sizeof(double);
+}
 
 std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry& geometry) {
   const ArmKinematics& arm = geometry.kinematics;
@@ -30,8 +58,7 @@ std::shared_ptr<MotionTube::Scratch> MotionTube::make_scratch(const ArmGeometry&
   for (auto* rows : {&s->joints.span, &s->joints.drift, &s->joints.loose}) {
     rows->resize(lane_size(arm.joints().size()));
   }
-  for (auto* rows : {&s->frames.span, &s->frames.drift, &s->frames.loose})
-    rows->resize(lane_size(arm.frames().size()));
+  s->spans.resize(lane_size(arm.frames().size()));
   s->axes.resize(lane_size(arm.frames().size() * 6));
   s->motion_bounds.resize(lane_size(static_cast<std::size_t>(arm.motion_bound_rows())));
   s->capsule_rows.resize(arm.capsules().size());
@@ -105,14 +132,7 @@ std::size_t MotionTube::bytes() const {
   std::size_t bytes =
       size() * (sizeof(Placement) + sizeof(Duration) * 3) + self_hits_.capacity() * sizeof(SelfHit);
   if (trajectory_) bytes += trajectory_->bytes();
-  if (blocks_.empty()) return bytes;
-  const Block& block = *blocks_.front();  // all blocks have the same size
-  std::size_t numbers = block.frames.size() * 2;
-  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.spread,
-                          &block.drifts, &block.looses, &block.sweeps}) {
-    numbers += row->size();
-  }
-  return bytes + blocks_.size() * (sizeof(Block) + numbers * sizeof(float));
+  return blocks_.empty() ? bytes : bytes + blocks_.size() * blocks_.front()->bytes;
 }
 
 void MotionTube::configuration(Duration time, double* q) {
@@ -135,21 +155,22 @@ std::shared_ptr<MotionTube> MotionTube::still_at(Duration time) {
   return still;
 }
 
-void MotionTube::place(std::span<const int> nodes) {
+void MotionTube::place(std::span<const int> nodes, bool with_self) {
   placements_.resize(size());
   int batch[kLanes];
   std::size_t count = 0;
   for (const int node : nodes) {
     Placement& to_place = placements_[static_cast<std::size_t>(node)];
-    if (to_place.placed) continue;
+    if (to_place.placed && (to_place.with_self || !with_self)) continue;
     to_place.placed = true;
+    to_place.with_self = with_self;
     batch[count++] = node;
     if (count == kLanes) {
-      place_batch({batch, count});
+      place_batch({batch, count}, with_self);
       count = 0;
     }
   }
-  if (count > 0) place_batch({batch, count});
+  if (count > 0) place_batch({batch, count}, with_self);
 }
 
 // Fills all lanes for nodes of a straight line, which have the same width and so the same bounds.
@@ -219,55 +240,52 @@ void MotionTube::fill_lanes(std::span<const int> nodes) {
   }
 }
 
-void MotionTube::place_batch(std::span<const int> nodes) {
+void MotionTube::place_batch(std::span<const int> nodes, bool with_self) {
   const ArmKinematics& arm = geometry_->kinematics;
   const filter::Kernel& kernel = filter::best_kernel();
   Scratch& s = *scratch_;
   line_from_.size() > 0 ? fill_lanes_of_line(nodes) : fill_lanes(nodes);
+  if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<Block>(arm));
+  Block& block = *blocks_[used_++];
   for (std::size_t f = 0; f < arm.frames().size(); ++f) {
     const filter::Frame& frame = arm.frames()[f];
     const float scale = round_up(std::abs(frame.multiplier));
     const auto factor = static_cast<float>(frame.multiplier);
     const auto row = static_cast<std::size_t>(frame.joint);
-    lanes_of(s.frames.span, f) = scale * lanes_of(s.joints.span, row) * 1.000001F;
-    lanes_of(s.frames.drift, f) = factor * lanes_of(s.joints.drift, row);
-    lanes_of(s.frames.loose, f) = scale * lanes_of(s.joints.loose, row) * 1.000001F;
+    lanes_of(s.spans, f) = scale * lanes_of(s.joints.span, row) * 1.000001F;
+    lanes_of(block.drifts, f) = factor * lanes_of(s.joints.drift, row);
+    lanes_of(block.looses, f) = scale * lanes_of(s.joints.loose, row) * 1.000001F;
   }
-  const std::size_t capsules = arm.capsules().size();
-  if (used_ == blocks_.size()) blocks_.push_back(std::make_unique<Block>());
-  Block& block = *blocks_[used_++];
-  block.capsules.resize(lane_size(capsules * 6));
-  block.motion_bound.resize(lane_size(capsules));
-  block.ball.resize(lane_size(4));
-  const int spread = filter::spread_size(static_cast<int>(capsules));
-  block.spread.resize(static_cast<std::size_t>(4 * spread));
-  block.frames.resize(lane_size(arm.frames().size() * 12));
-  block.drifts = s.frames.drift;
-  block.looses = s.frames.loose;
-  block.sweeps.resize(lane_size(capsules * filter::kSweep));
-  const filter::Placed placed{block.frames.data(), s.axes.data(), block.capsules.data()};
+  const filter::Placed placed{block.frames.get(), s.axes.data(), block.capsules};
   kernel.place(arm.view(), s.q.data(), placed);
-  kernel.inflate(arm.view(), placed,
-                 {s.frames.span.data(), s.frames.drift.data(), s.frames.loose.data()},
-                 {s.motion_bounds.data(), block.sweeps.data()});
-  for (std::size_t c = 0; c < capsules; ++c) {
+  kernel.inflate(arm.view(), placed, {s.spans.data(), block.drifts, block.looses},
+                 {s.motion_bounds.data(), block.sweeps});
+  for (std::size_t c = 0; c < arm.capsules().size(); ++c) {
     const auto row = static_cast<std::size_t>(arm.capsules()[c].motion_bounds_begin);
-    std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes,
-                block.motion_bound.data() + lane_size(c));
+    std::copy_n(s.motion_bounds.data() + lane_size(row), kLanes, block.motion_bound + lane_size(c));
   }
-  kernel.enclose(arm.view(), block.capsules.data(), block.motion_bound.data(),
-                 s.capsule_rows.data(), block.ball.data(), block.spread.data());
-  const filter::Side side{.capsules = block.capsules.data(),
-                          .motion_bound = s.motion_bounds.data(),
-                          .ball = nullptr,
-                          .sweeps = block.sweeps.data()};
-  const unsigned lanes = (1U << nodes.size()) - 1U;
-  const int found =
-      kernel.near_pairs(side, side, geometry_->self.ungrouped(), lanes, s.hits.data());
+  kernel.enclose(arm.view(), block.capsules, block.motion_bound, s.capsule_rows.data(), block.ball,
+                 block.spread);
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
     node.block = used_ - 1;
     node.lane = lane;
+  }
+  if (with_self) filter_self(nodes, block);
+}
+
+// Finds the self hits of the nodes that were just placed in the block.
+void MotionTube::filter_self(std::span<const int> nodes, const Block& block) {
+  Scratch& s = *scratch_;
+  const filter::Side side{.capsules = block.capsules,
+                          .motion_bound = s.motion_bounds.data(),
+                          .ball = nullptr,
+                          .sweeps = block.sweeps};
+  const unsigned lanes = (1U << nodes.size()) - 1U;
+  const int found = filter::best_kernel().near_pairs(side, side, geometry_->self.ungrouped(), lanes,
+                                                     s.hits.data());
+  for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
+    Placement& node = placements_[static_cast<std::size_t>(nodes[lane])];
     node.self_begin = self_hits_.size();
     for (int h = 0; h < found; ++h) {
       const filter::Hit& hit = s.hits[static_cast<std::size_t>(h)];
@@ -305,7 +323,7 @@ MotionTube::Stretches MotionTube::stretches_of(int node) {
   }
   if (!side_by_side) {
     for (const int stretch : nodes) placements_[static_cast<std::size_t>(stretch)].placed = true;
-    place_batch(nodes);
+    place_batch(nodes, false);
   }
   const Placement& first = at(nodes.front());
   const int begin = static_cast<int>(first.lane);

@@ -50,9 +50,10 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
-  // Places the nodes that are not placed yet, eight at once. Required before place_of(), axes_of()
-  // and self_hits(). Along a line (move_along), the nodes must be of one level of the tree.
-  void place(std::span<const int> nodes);
+  // Places the nodes that are not placed yet, eight at once. Required before place_of() and
+  // axes_of(). `with_self`: also required before self_hits(). Along a line (move_along), the nodes
+  // must be of one level of the tree.
+  void place(std::span<const int> nodes, bool with_self = false);
   // Returns the memory used, including the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
   // A wider node consists of stretches: nodes of at most this width.
@@ -60,19 +61,23 @@ class MotionTube : public TimeTree {
 
   // Eight nodes, one per lane, in the data layout of the kernels.
   struct Block {
-    std::vector<float> capsules;      // [capsule][6][kLanes]
-    std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
-    std::vector<float> ball;          // [4][kLanes], filter::Side::ball
-    std::vector<float> spread;        // filter::Spread::balls
-    std::vector<double> frames;       // [frame][12][kLanes]
-    std::vector<float> drifts;        // filter::JointMotions::drift
-    std::vector<float> looses;        // filter::JointMotions::loose
-    std::vector<float> sweeps;        // filter::MotionBounds::sweeps
+    explicit Block(const ArmKinematics& arm);
+
+    std::size_t bytes = 0;
+    std::unique_ptr<double[]> frames;  // [frame][12][kLanes]
+    std::unique_ptr<float[]> floats;   // all arrays below
+    float* capsules;                   // [capsule][6][kLanes]
+    float* motion_bound;               // [capsule][kLanes]: motion bounds, m
+    float* ball;                       // [4][kLanes], filter::Side::ball
+    float* spread;                     // filter::Spread::balls
+    float* drifts;                     // filter::JointMotions::drift
+    float* looses;                     // filter::JointMotions::loose
+    float* sweeps;                     // filter::MotionBounds::sweeps
   };
   struct Place {
     const Block* block;
     std::size_t lane;
-    [[nodiscard]] const double* frames() const { return block->frames.data() + lane; }
+    [[nodiscard]] const double* frames() const { return block->frames.get() + lane; }
   };
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
@@ -110,6 +115,7 @@ class MotionTube : public TimeTree {
 
   struct Placement {  // of a node
     bool placed = false;
+    bool with_self = false;  // self_begin and self_end are set
     std::size_t block = 0;
     std::size_t lane = 0;
     std::size_t self_begin = 0;
@@ -119,7 +125,8 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const Placement& at(int node) const {
     return placements_[static_cast<std::size_t>(node)];
   }
-  void place_batch(std::span<const int> nodes);
+  void place_batch(std::span<const int> nodes, bool with_self);
+  void filter_self(std::span<const int> nodes, const Block& block);
   void collect_stretches(int node, std::vector<int>& stretches);
   void fill_lane(int node, int lane);
   void find_columns(const std::vector<JointId>& moved);

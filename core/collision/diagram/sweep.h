@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -68,7 +71,10 @@ class Sweep {
 
   std::span<const MovingAxis> axes_;
   Eigen::Vector3d n_;
-  std::vector<Moment> moments_;                 // of the loose parts
+  // Moments of the loose parts, on the stack for arms of usual length: sweeps are short-lived.
+  alignas(Moment) std::array<std::byte, 12 * sizeof(Moment)> memory_;
+  std::pmr::monotonic_buffer_resource resource_{memory_.data(), memory_.size()};
+  std::pmr::vector<Moment> moments_{&resource_};
   Moment drift_{Eigen::Vector3d::Zero(), 0.0};  // of all drifts together, shifts included
   double shifts_m_ = 0.0;                       // loose parts of the prismatic joints, along n
   double turn_ = 0.0;                           // bound of the sum of |m|, if s is the whole span

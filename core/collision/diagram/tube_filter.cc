@@ -26,12 +26,18 @@ struct TubePair::Batch {
   Batch(const MotionTube& tube_of, const std::vector<int>& nodes, Gathered& gathered)
       : tube(tube_of), to(gathered), count(nodes.size()) {
     for (std::size_t lane = 0; lane < count; ++lane) of[lane] = tube.place_of(nodes[lane]);
-    side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
-            rows(&Block::ball, to.ball)};
+    const std::size_t capsules = tube.kinematics().capsules().size();
     if (const Block* block = as_block()) {
-      side.spread = {block->spread.data(), static_cast<int>(block->spread.size() / 4)};
-      side.sweeps = block->sweeps.data();
+      side = {block->capsules,
+              block->motion_bound,
+              block->ball,
+              {block->spread, filter::spread_size(static_cast<int>(capsules))},
+              block->sweeps};
+      return;
     }
+    side = {gather(&Block::capsules, 6 * capsules, to.capsules),
+            gather(&Block::motion_bound, capsules, to.motion_bound),
+            gather(&Block::ball, 4, to.ball)};
   }
   // If lane i of the batch is lane i of one block of the tube, returns that block, else null. A
   // tube with a single node (an arm at rest) has this node in every lane of its block.
@@ -42,17 +48,14 @@ struct TubePair::Batch {
     }
     return of[0].block;
   }
-  // Returns a Block member with the nodes of the batch lane by lane. Copies the values to
-  // `gathered` unless the batch is one block.
-  [[nodiscard]] const float* rows(std::vector<float> Block::*member,
-                                  std::vector<float>& gathered) const {
-    if (const Block* block = as_block()) return (block->*member).data();
-    gathered.resize(std::max(gathered.size(), (of[0].block->*member).size()));
+  // Copies the rows of a Block member, with the nodes of the batch lane by lane.
+  [[nodiscard]] const float* gather(float* Block::*member, std::size_t rows,
+                                    std::vector<float>& gathered) const {
+    gathered.resize(std::max(gathered.size(), rows * kLanes));
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const std::vector<float>& from = of[lane].block->*member;
-      for (std::size_t row = 0; row < from.size(); row += kLanes) {
-        gathered[row + lane] = from[row + of[lane].lane];
-      }
+      const float* from = of[lane].block->*member + of[lane].lane;
+      for (std::size_t row = 0; row < rows; ++row)
+        gathered[row * kLanes + lane] = from[row * kLanes];
     }
     return gathered.data();
   }
@@ -64,8 +67,8 @@ struct TubePair::Lanes {
     MotionTube::Stretches stretches;
 
     [[nodiscard]] filter::SweptCapsule swept(int capsule) const {
-      const auto row = [capsule](const std::vector<float>& of, int rows) {
-        return of.data() + static_cast<std::ptrdiff_t>(capsule) * rows * kLanes;
+      const auto row = [capsule](const float* of, int rows) {
+        return of + static_cast<std::ptrdiff_t>(capsule) * rows * kLanes;
       };
       return {row(at.block->capsules, 6) + at.lane, row(stretches.block->capsules, 6),
               row(stretches.block->sweeps, filter::kSweep), stretches.first, stretches.end};
@@ -110,8 +113,14 @@ int TubePair::left_open(unsigned of_batch, int hits) {
       closest[lane] = h;
     }
     if (closest[lane] < 0) continue;
-    lanes.a[lane] = {a_->place_of(s.nodes_a[lane]), a_->stretches_of(s.nodes_a[lane])};
-    lanes.b[lane] = {b_->place_of(s.nodes_b[lane]), b_->stretches_of(s.nodes_b[lane])};
+    const auto side = [&s](MotionTube& tube, int node) -> Lanes::Side {
+      const MotionTube::Place at = tube.place_of(node);
+      if (s.in_stretches) return {at, tube.stretches_of(node)};
+      const auto only = static_cast<int>(at.lane);
+      return {at, {at.block, only, only + 1}};
+    };
+    lanes.a[lane] = side(*a_, s.nodes_a[lane]);
+    lanes.b[lane] = side(*b_, s.nodes_b[lane]);
     look_along(lanes, s.pairs.of[static_cast<std::size_t>(closest[lane])], lane,
                s.parted_closest[lane]);
   }
@@ -147,20 +156,43 @@ void TubePair::place_all(std::span<const Nodes> nodes) {
     s.nodes_a.push_back(at.a);
     s.nodes_b.push_back(at.b);
   }
-  a_->place(s.nodes_a);
+  a_->place(s.nodes_a, is_self());
   if (!is_self()) b_->place(s.nodes_b);
 }
 
-void TubePair::filter(std::span<const Nodes> batch) {
+// Returns the placed nodes, as bits, in which the balls around both arms may be too close. Most
+// cells of long motions are decided so, before their capsules are gathered.
+unsigned TubePair::near_lanes() const {
+  const Scratch& s = *setting_.scratch;
+  unsigned near = 0;
+  for (std::size_t lane = 0; lane < s.nodes_a.size(); ++lane) {
+    const MotionTube::Place a = a_->place_of(s.nodes_a[lane]), b = b_->place_of(s.nodes_b[lane]);
+    float squared = 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float w = a.block->ball[k * kLanes + a.lane] - b.block->ball[k * kLanes + b.lane];
+      squared += w * w;
+    }
+    const float reach = (a.block->ball[3 * kLanes + a.lane] + b.block->ball[3 * kLanes + b.lane] +
+                         setting_.pairs->limit_up) *
+                        1.00001F;
+    near |= squared >= reach * reach ? 0U : 1U << lane;
+  }
+  return near;
+}
+
+void TubePair::filter(std::span<const Nodes> batch, bool in_stretches) {
   Scratch& s = *setting_.scratch;
+  s.in_stretches = in_stretches;
   place_all(batch);
   if (is_self()) return;  // the tube has filtered its own pairs
+  const PairSet& set = *setting_.pairs;
+  s.pairs.count = s.boxes.count = 0;
+  const unsigned lanes = b_->kinematics().arm() ? near_lanes() : (1U << batch.size()) - 1U;
+  if (lanes == 0) return;
   const Batch a(*a_, s.nodes_a, s.a);
   const Batch b(*b_, s.nodes_b, s.b);
   s.side_a = a.side;
-  const PairSet& set = *setting_.pairs;
   const filter::Kernel& kernel = filter::best_kernel();
-  const unsigned lanes = (1U << batch.size()) - 1U;
   const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.pairs.of.data());
   s.pairs.count = left_open(lanes, found);
   s.boxes.count = kernel.near_boxes(a.side, set.all_boxes(), lanes, s.boxes.of.data());

@@ -64,8 +64,9 @@ class TubePair {
   // Places the nodes of many cells at once, which is faster than eight at a time.
   void place_all(std::span<const Nodes> nodes);
   // Places and filters up to eight cells. Until the next call, undecided(i) then returns the pairs
-  // that are undecided in cell i of the batch.
-  void filter(std::span<const Nodes> batch);
+  // that are undecided in cell i of the batch. `in_stretches`: bounds motion in stretches of wide
+  // nodes (MotionTube::kStretch), which is tighter but slower than in the whole node.
+  void filter(std::span<const Nodes> batch, bool in_stretches = true);
   [[nodiscard]] std::vector<Undecided>& undecided(std::size_t of_batch);
   [[nodiscard]] NarrowPair narrow(int entry, bool box) const;
 
@@ -101,6 +102,7 @@ class TubePair {
   struct Lanes;
   void look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
                   filter::Parted& parted) const;
+  [[nodiscard]] unsigned near_lanes() const;
   [[nodiscard]] int left_open(unsigned of_batch, int hits);
   [[nodiscard]] double slack_m(const NarrowPair& pair) const;
   [[nodiscard]] PlacedBody placed_a(const NarrowPair& pair, Nodes at) const;

@@ -14,8 +14,8 @@ struct MotionTube::Scratch {
   struct Motions {
     std::vector<float> span, drift, loose;
   };
-  Motions joints;  // [row][kLanes]
-  Motions frames;  // [frame][kLanes]
+  Motions joints;            // [row][kLanes]
+  std::vector<float> spans;  // [frame][kLanes]
   std::vector<float> motion_bounds, axes;
   std::vector<int> capsule_rows;  // by capsule: row in Block::motion_bound
   std::vector<filter::Hit> hits;
@@ -44,6 +44,7 @@ struct TubePair::Scratch {
   std::vector<Parted> parted;  // by hit of pairs
   std::array<filter::Parted, filter::kLanes> parted_closest;
   std::vector<int> nodes_a, nodes_b;
+  bool in_stretches = true;
   filter::Side side_a;
   std::vector<Undecided> undecided;
   std::vector<MovingAxis> axes_a, axes_b;
