@@ -6,7 +6,14 @@ namespace armloom {
 
 TouchRules::TouchRules(const Cell& cell, const RecordedScene& scene) : cell_(cell) {
   for (const Attachment& held : scene.held) {
-    held_.try_emplace(held.object.name, Held{&held, hand_of(cell, held.link)});
+    Held& of =
+        held_.try_emplace(held.object.name, Held{&held, hand_of(cell, held.link)}).first->second;
+    for (const Attachment::Other& other : held.others) {
+      const std::vector<bool> hand = hand_of(cell, other.link);
+      for (std::size_t link = 0; link < hand.size(); ++link) {
+        of.hand[link] = of.hand[link] || hand[link];
+      }
+    }
   }
   for (const AllowedTouch& touch : scene.touch) touch_.try_emplace(touch.object, &touch.links);
 }

@@ -25,7 +25,7 @@ class TouchRules {
 
   struct Held {
     const Attachment* attachment;
-    std::vector<bool> hand;  // LinkId
+    std::vector<bool> hand;  // LinkId; of all hands that hold it
   };
   const Cell& cell_;
   std::map<std::string_view, Held> held_;                         // by name

@@ -6,6 +6,7 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/arms_of.h"
+#include "core/executive/hands_together.h"
 #include "core/executive/inquiry_desk.h"
 #include "core/executive/timeline.h"
 #include "core/trajectory/set_joints.h"
@@ -198,6 +199,12 @@ void InquiryDesk::plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> c
                        std::function<void(Result<PlanOutcome>)> done) {
   auto questions = questions_of(*cell_, inquiry, predicted_rest(scheduler_.state()));
   if (!questions) return done(failure(std::move(questions.error())));
+  const HandsOf hands = intake_.hands(intake_.ahead());
+  for (std::size_t i = 0; i < questions->size(); ++i) {
+    const std::string place = inquiry.arms.empty() ? "/arm" : "/arms/" + std::to_string(i);
+    auto alone = find_moves_alone(*cell_, hands, {(*questions)[i].goal.arm}, place);
+    if (alone) return done(failure(*std::move(alone)));
+  }
   for (PlanQuestion& question : *questions) question.may_move = may_move({question.goal.arm});
   plan_next(std::make_shared<OpenInquiry>(OpenInquiry{std::move(inquiry), *std::move(questions),
                                                       std::move(cancelled), std::move(done)}));

@@ -208,6 +208,13 @@ struct HeldView {
   std::string link = {};
   std::string arm = {};
   std::vector<std::string> touch = {};  // Attachment::touch and touch_objects
+  // Other hands that hold it too, with the object's pose in their frames.
+  struct Other {
+    std::string link = {};
+    std::string arm = {};
+    Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
+  };
+  std::vector<Other> shared_with = {};
 };
 // See AllowedTouch in core/model/attachment.h.
 struct TouchView {

@@ -6,6 +6,7 @@
 
 #include "core/executive/arms_of.h"
 #include "core/executive/guard_words.h"
+#include "core/executive/holding.h"
 
 namespace armloom {
 namespace {
@@ -313,7 +314,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   watch_.follow(query);
   publisher_.scene_has_changed(clock_.now);
   set_brakes();
-  if (is_within_reach) step(SceneChanged{arms});
+  if (is_within_reach) step(SceneChanged{arms, shared_holds(*cell_, hands_of(*scene_.scene()))});
 }
 
 void Executive::Impl::signal_changed(SignalId signal) {

@@ -1,9 +1,8 @@
 #include "core/executive/gripper_goal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,6 +94,56 @@ Result<TrajectoryPtr> gripper_motion(const JobRequest& request, const Cell& cell
   Eigen::Index row = static_cast<Eigen::Index>(arm.joints.size());
   for (const auto& [joint, position] : *positions) to[row++] = position;
   return joint_line(cell, joints, from, to, request.speed);
+}
+
+Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
+                                                      const GripperStepRequest& gripper) {
+  const auto id = cell.find_arm(gripper.arm);
+  if (!id) {
+    return failure(Problem{ProblemKind::invalid, "unknown-arm", "/gripper/arm",
+                           "the cell has no arm \"" + gripper.arm + "\"", gripper.arm});
+  }
+  const Arm& arm = cell.arm(*id);
+  double per_joint = 0.0, offset = 0.0;
+  bool turns = false;
+  for (const Link& link : cell.links) {
+    if (!link.driver || std::ranges::count(arm.gripper_joints, *link.driver) == 0) continue;
+    turns = turns || link.motion != JointKind::prismatic;
+    per_joint += std::abs(link.multiplier);
+    offset += link.offset;
+  }
+  if (turns || per_joint == 0.0) {
+    return failure(Problem{
+        ProblemKind::invalid, "no-width", "/gripper/width_m",
+        "arm " + arm.name + (turns ? " has a gripper whose fingers turn" : " has no gripper") +
+            ": move gripper joints by \"move_to\": {\"joints\": {NAME: position}}",
+        gripper.width_m});
+  }
+  const double position = (gripper.width_m - offset) / per_joint;
+  std::map<std::string, double> positions;
+  for (const JointId joint : arm.gripper_joints) {
+    const Joint& known = cell.joint(joint);
+    if (!is_within_limits(known, position)) {
+      char text[160];
+      std::snprintf(text, sizeof text, "a width of %.6g m is outside %.6g to %.6g m",
+                    gripper.width_m, known.lower * per_joint + offset,
+                    known.upper * per_joint + offset);
+      return failure(Problem{ProblemKind::invalid, "limit-exceeded", "/gripper/width_m", text,
+                             gripper.width_m});
+    }
+    positions[known.name] = position;
+  }
+  return positions;
+}
+
+Result<TrajectoryPtr> gripper_motion(const GripperStepRequest& gripper, const Cell& cell,
+                                     const Configuration& rest) {
+  auto positions = joints_at_width(cell, gripper);
+  if (!positions) return failure(std::move(positions.error()));
+  JobRequest request;
+  request.arm = gripper.arm;
+  request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = {}, .gripper = *positions};
+  return gripper_motion(request, cell, rest);
 }
 
 }  // namespace armloom

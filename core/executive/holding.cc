@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "core/collision/state/body_distance.h"
@@ -46,6 +47,53 @@ double from_hand(const PlanningScene& scene, const LinkPoses& X_WL, const std::s
   return nearest;
 }
 
+std::vector<LinkId> hands_of(const Attachment& held) {
+  std::vector<LinkId> links{held.link};
+  for (const Attachment::Other& other : held.others) links.push_back(other.link);
+  return links;
+}
+
+std::vector<LinkId> links_of_hands(const Cell& cell, const std::vector<LinkId>& hands) {
+  std::vector<LinkId> links;
+  for (const LinkId hand : hands) {
+    const std::vector<LinkId> of_one = links_of_hand(cell, hand);
+    links.insert(links.end(), of_one.begin(), of_one.end());
+  }
+  return links;
+}
+
+// Returns the content in which the link holds the object, too.
+Result<Content> shared_with(Content& content, const Cell& cell,
+                            std::vector<Attachment>::iterator held, const LinkPoses& X_WL,
+                            LinkId link, Touch touch) {
+  if (held == content.attachments->end()) {
+    return failure(Problem{ProblemKind::conflict, "not-held", "/attach/shared",
+                           "no arm holds the object: leave out \"shared\"", "true"});
+  }
+  const std::vector<ArmId> arms = arms_of(cell, hands_of(*held));
+  if (std::ranges::count(arms, *cell.link(link).arm) > 0) {
+    return failure(Problem{ProblemKind::conflict, "held-twice", "/attach/link",
+                           "the arm of " + cell.link(link).name + " holds the object already",
+                           cell.link(link).name});
+  }
+  const Eigen::Isometry3d X_WO = X_WL[held->link.index()] * held->X_LO;
+  held->others.push_back({link, X_WL[link.index()].inverse(Eigen::Isometry) * X_WO});
+  held->touch = std::move(touch.links);
+  held->touch_objects = std::move(touch.objects);
+  return std::move(content);
+}
+
+// Takes one of several hands from the object, which is at X_WO.
+void let_go(Attachment& held, LinkId link, const LinkPoses& X_WL, const Eigen::Isometry3d& X_WO) {
+  if (held.link == link) {
+    held.link = held.others.front().link;
+    held.X_LO = X_WL[held.link.index()].inverse(Eigen::Isometry) * X_WO;
+    held.others.erase(held.others.begin());
+  } else {
+    std::erase_if(held.others, [&](const Attachment::Other& other) { return other.link == link; });
+  }
+}
+
 template <typename T>
 void add_to(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -71,6 +119,33 @@ std::optional<LinkId> carrier_of(const PlanningScene& scene, const std::string& 
   return held == scene.attachments().end() ? std::nullopt : std::optional(held->link);
 }
 
+std::vector<LinkId> hands_at(const PlanningScene& scene, const std::string& object) {
+  const auto held = std::ranges::find_if(scene.attachments(), carries(object));
+  return held == scene.attachments().end() ? std::vector<LinkId>{} : hands_of(*held);
+}
+
+HandsOf hands_of(const PlanningScene& scene) {
+  HandsOf hands;
+  for (const Attachment& held : scene.attachments()) {
+    hands.emplace(held.object.name, hands_of(held));
+  }
+  return hands;
+}
+
+std::vector<SharedHold> shared_holds(const Cell& cell, const HandsOf& hands) {
+  std::vector<SharedHold> holds;
+  for (const auto& [object, links] : hands) {
+    if (links.size() > 1) holds.push_back({object, arms_of(cell, links)});
+  }
+  return holds;
+}
+
+std::vector<ArmId> arms_of(const Cell& cell, const std::vector<LinkId>& links) {
+  std::set<ArmId> arms;
+  for (const LinkId link : links) arms.insert(*cell.link(link).arm);
+  return {arms.begin(), arms.end()};
+}
+
 std::vector<LinkId> links_of_hand(const Cell& cell, LinkId link) {
   const std::vector<bool> hand = hand_of(cell, link);
   std::vector<LinkId> links;
@@ -80,8 +155,10 @@ std::vector<LinkId> links_of_hand(const Cell& cell, LinkId link) {
   return links;
 }
 
-Result<Content> attached(const PlanningScene& scene, const Configuration& measured,
-                         const std::string& object, LinkId link, Touch touch) {
+namespace {
+
+Result<Content> in_hand(const PlanningScene& scene, const Configuration& measured,
+                        const std::string& object, LinkId link, Touch touch, bool shared) {
   const Cell& cell = scene.cell();
   LinkPoses X_WL;
   forward_kinematics(cell, measured, X_WL);
@@ -104,6 +181,7 @@ Result<Content> attached(const PlanningScene& scene, const Configuration& measur
     return failure(
         Problem{ProblemKind::conflict, "too-far", "/attach/object", object + text, distance_m});
   }
+  if (shared) return shared_with(content, cell, held, X_WL, link, std::move(touch));
   Attachment next{.object = {}, .link = link, .X_LO = {}, .touch = {}};
   if (placed != content.objects.end()) {
     next.X_LO = X_WL[link.index()].inverse(Eigen::Isometry) * placed->X_WO;
@@ -113,15 +191,24 @@ Result<Content> attached(const PlanningScene& scene, const Configuration& measur
     const Eigen::Isometry3d X_WO = X_WL[held->link.index()] * held->X_LO;
     next.X_LO = X_WL[link.index()].inverse(Eigen::Isometry) * X_WO;
     next.object = std::move(held->object);
-    const std::vector<LinkId> hand = links_of_hand(cell, held->link);  // still at the object
-    touch.links.insert(touch.links.end(), hand.begin(), hand.end());
+    touch.add({links_of_hands(cell, hands_of(*held))});  // still at the object
     content.attachments->erase(held);
   }
   next.touch = std::move(touch.links);
   next.touch_objects = std::move(touch.objects);
   allow(content, object, {});
   content.attachments->push_back(std::move(next));
-  if (auto overload = find_overload(cell, *cell.link(link).arm, *content.attachments)) {
+  return content;
+}
+
+}  // namespace
+
+Result<Content> attached(const PlanningScene& scene, const Configuration& measured,
+                         const std::string& object, LinkId link, Touch touch, bool shared) {
+  auto content = in_hand(scene, measured, object, link, std::move(touch), shared);
+  if (!content) return content;
+  const Cell& cell = scene.cell();
+  if (auto overload = find_overload(cell, *cell.link(link).arm, *content->attachments)) {
     overload->pointer = "/attach/object";
     return failure(*std::move(overload));
   }
@@ -129,18 +216,30 @@ Result<Content> attached(const PlanningScene& scene, const Configuration& measur
 }
 
 Result<Content> detached(const PlanningScene& scene, const Configuration& measured,
-                         const std::string& object) {
+                         const std::string& object, std::optional<LinkId> link) {
   Content content = content_of(scene);
   const auto held = std::ranges::find_if(*content.attachments, carries(object));
-  if (held == content.attachments->end()) {
+  const bool is_held = held != content.attachments->end();
+  const std::vector<LinkId> hands = is_held ? hands_of(*held) : std::vector<LinkId>{};
+  if (!is_held || (link && std::ranges::count(hands, *link) == 0)) {
+    const std::string who =
+        link ? scene.cell().link(*link).name + " does not hold " : "no arm holds ";
     return failure(Problem{ProblemKind::conflict, "not-held", "/detach/object",
-                           "no arm holds \"" + object + "\": attach it in a step before", object});
+                           who + "\"" + object + "\": attach it in a step before", object});
   }
   LinkPoses X_WL;
   forward_kinematics(scene.cell(), measured, X_WL);
-  CollisionObject placed = std::move(held->object);
+  CollisionObject placed = held->object;
   placed.X_WO = X_WL[held->link.index()] * held->X_LO;
-  allow(content, object, links_of_hand(scene.cell(), held->link));
+  if (link && hands.size() > 1) {
+    let_go(*held, *link, X_WL, placed.X_WO);
+    Touch touch{std::move(held->touch), std::move(held->touch_objects)};
+    touch.add({links_of_hand(scene.cell(), *link)});  // still at the object
+    held->touch = std::move(touch.links);
+    held->touch_objects = std::move(touch.objects);
+    return content;
+  }
+  allow(content, object, links_of_hands(scene.cell(), hands));
   content.attachments->erase(held);
   content.objects.push_back(std::move(placed));
   return content;
@@ -176,19 +275,43 @@ HeldView place_of(const PlanningScene& scene, const std::string& object) {
   if (held == scene.attachments().end()) {
     return {*std::ranges::find(scene.objects(), object, &CollisionObject::name)};
   }
-  const Link& link = scene.cell().link(held->link);
-  return {{held->object.name, held->object.shape, held->X_LO, held->object.mass},
-          link.name,
-          scene.cell().arm(*link.arm).name};
+  const auto name_of_arm = [&](LinkId link) {
+    return scene.cell().arm(*scene.cell().link(link).arm).name;
+  };
+  HeldView view{{held->object.name, held->object.shape, held->X_LO, held->object.mass},
+                scene.cell().link(held->link).name,
+                name_of_arm(held->link)};
+  for (const Attachment::Other& other : held->others) {
+    view.shared_with.push_back(
+        {scene.cell().link(other.link).name, name_of_arm(other.link), other.X_LO});
+  }
+  return view;
 }
 
-Content holding(const PlanningScene& scene, CollisionObject object, LinkId link) {
+Result<Attachment> attachment_of(const Cell& cell, const HeldView& view) {
+  Attachment held{.object = view.object, .link = LinkId{0}, .X_LO = view.object.X_WO, .touch = {}};
+  const auto find = [&](const std::string& name) -> Result<LinkId> {
+    if (const auto link = cell.find_link(name)) return *link;
+    return failure(Problem{ProblemKind::invalid, "unknown-link", "/link",
+                           "the cell has no link \"" + name + "\"", name});
+  };
+  auto link = find(view.link);
+  if (!link) return failure(std::move(link.error()));
+  held.link = *link;
+  for (const HeldView::Other& other : view.shared_with) {
+    link = find(other.link);
+    if (!link) return failure(std::move(link.error()));
+    held.others.push_back({*link, other.X_LO});
+  }
+  return held;
+}
+
+Content holding(const PlanningScene& scene, Attachment held) {
   Content content = content_of(scene);
-  std::erase_if(content.objects, [&](const CollisionObject& o) { return o.name == object.name; });
-  std::erase_if(*content.attachments, carries(object.name));
-  const Eigen::Isometry3d X_LO = object.X_WO;
-  content.attachments->push_back(
-      {.object = std::move(object), .link = link, .X_LO = X_LO, .touch = {}});
+  const std::string& name = held.object.name;
+  std::erase_if(content.objects, [&](const CollisionObject& o) { return o.name == name; });
+  std::erase_if(*content.attachments, carries(name));
+  content.attachments->push_back(std::move(held));
   return content;
 }
 

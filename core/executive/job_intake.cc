@@ -128,6 +128,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   std::vector<PreparedJob::PreparedStep> steps;
   if (request.steps.empty()) {
     motion = read_motion(request, ahead, problems);
+    if (problems.empty()) find_hands_apart(request, motion, ahead, problems);
   } else {
     steps = read_steps(request, ahead, problems);
   }

@@ -69,14 +69,15 @@ class JobIntake {
     Configuration rest;
     std::unordered_set<std::string> keys;
     WaysBack ways_back;
-    std::vector<ArmId> open = {};  // arms whose position in `rest` is not known yet
-    bool begins_anywhere = false;  // jobs need not begin at `rest`
-    std::size_t jobs = 0;          // number of earlier jobs of the batch
-    std::size_t bytes = 0;         // memory of their trajectories
-    // By object: the link that carries it after all earlier tasks; set with the first of the batch.
-    std::optional<std::map<std::string, LinkId>> carried = {};
+    std::vector<ArmId> open = {};       // arms whose position in `rest` is not known yet
+    bool begins_anywhere = false;       // jobs need not begin at `rest`
+    std::size_t jobs = 0;               // number of earlier jobs of the batch
+    std::size_t bytes = 0;              // memory of their trajectories
+    std::optional<HandsOf> hands = {};  // after all earlier tasks; set with the first of the batch
   };
   [[nodiscard]] Ahead ahead() const;
+  // Returns what hands hold after all earlier jobs.
+  [[nodiscard]] HandsOf hands(const Ahead& ahead) const;
   // Checks a request completely; stores nothing. Updates `ahead` for the next request of a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
   // Precondition: no task.
@@ -113,6 +114,9 @@ class JobIntake {
                                                    Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> estimates_for(const std::vector<MotionGoal>& goals,
                                                          Ahead& ahead) const;
+  // For a job that is no task.
+  void find_hands_apart(const JobRequest& request, const PreparedMotion& motion, Ahead& ahead,
+                        Problems& problems) const;
   [[nodiscard]] std::optional<Problem> too_large(std::size_t bytes) const;
   void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;

@@ -16,9 +16,10 @@ Result<PlanningScene::Content> after(const PlanningScene& scene, const Configura
   const Cell& cell = scene.cell();
   if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
     return attached(scene, at, attach->object, *cell.find_link(attach->link),
-                    touch_of(cell, attach->touch));
+                    touch_of(cell, attach->touch), attach->shared);
   }
-  return detached(scene, at, std::get<DetachRequest>(step.what).object);
+  const auto& detach = std::get<DetachRequest>(step.what);
+  return detached(scene, at, detach.object, cell.find_link(detach.link));
 }
 
 }  // namespace

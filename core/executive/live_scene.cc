@@ -325,12 +325,9 @@ Result<void> LiveScene::change(PlanningScene::Content content) {
 
 Result<void> LiveScene::hold(const HeldView& held) {
   told_.asked({held});
-  const auto link = now_.scene->cell().find_link(held.link);
-  if (!link) {
-    return failure(Problem{ProblemKind::invalid, "unknown-link", "/link",
-                           "the cell has no link \"" + held.link + "\"", held.link});
-  }
-  return change(holding(*now_.scene, held.object, *link));
+  auto next = attachment_of(now_.scene->cell(), held);
+  if (!next) return failure(std::move(next.error()));
+  return change(holding(*now_.scene, *std::move(next)));
 }
 
 Result<void> LiveScene::edit(SceneEdit edit) {

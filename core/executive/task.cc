@@ -43,21 +43,32 @@ std::vector<JobId> Task::motions() const {
 
 std::vector<StepRequest> Task::to_come() const {
   std::vector<StepRequest> requests;
-  for (std::size_t i = at + (is_present_done ? 1 : 0); i < steps.size(); ++i) {
+  for (std::size_t i = first_to_come(); i < steps.size(); ++i) {
     requests.push_back(steps[i].request);
   }
   return requests;
 }
 
-void change_holding(const Cell& cell, std::span<const StepRequest> steps,
-                    std::map<std::string, LinkId>& carried) {
-  for (const StepRequest& step : steps) {
-    if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
-      carried.insert_or_assign(attach->object, *cell.find_link(attach->link));
-    } else if (const auto* detach = std::get_if<DetachRequest>(&step.what)) {
-      carried.erase(detach->object);
-    }
+void change_holding(const Cell& cell, const StepRequest& step, HandsOf& hands) {
+  if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
+    if (!attach->shared) hands.erase(attach->object);
+    hands[attach->object].push_back(*cell.find_link(attach->link));
+  } else if (const auto* detach = std::get_if<DetachRequest>(&step.what)) {
+    const auto held = hands.find(detach->object);
+    if (held == hands.end()) return;
+    for (const LinkId link : leaving(cell, *detach, hands)) std::erase(held->second, link);
+    if (held->second.empty()) hands.erase(held);
   }
+}
+
+void change_holding(const Cell& cell, std::span<const StepRequest> steps, HandsOf& hands) {
+  for (const StepRequest& step : steps) change_holding(cell, step, hands);
+}
+
+std::vector<LinkId> leaving(const Cell& cell, const DetachRequest& detach, const HandsOf& hands) {
+  if (const auto link = cell.find_link(detach.link)) return {*link};
+  const auto all = hands.find(detach.object);
+  return all == hands.end() ? std::vector<LinkId>{} : all->second;
 }
 
 JobState state_of(const Task& task, const Scheduler& scheduler) {
@@ -127,9 +138,11 @@ std::vector<Task*> TaskBook::begun() {
   return found;
 }
 
-void TaskBook::change_holding(const Cell& cell, std::map<std::string, LinkId>& carried) const {
+void TaskBook::change_holding(const Cell& cell, HandsOf& hands) const {
   for (const auto& [id, task] : tasks_) {
-    if (!task.end) armloom::change_holding(cell, task.to_come(), carried);
+    for (std::size_t i = task.first_to_come(); !task.end && i < task.steps.size(); ++i) {
+      armloom::change_holding(cell, task.steps[i].request, hands);
+    }
   }
 }
 
@@ -146,7 +159,7 @@ Touch touch_of(const Cell& cell, const std::vector<std::string>& names) {
 }
 
 std::vector<TouchOf> touch_during(const Cell& cell, const std::vector<StepRequest>& steps,
-                                  std::map<std::string, LinkId> carried) {
+                                  HandsOf hands) {
   std::vector<TouchOf> during(steps.size());
   // Adds the touch to the motion next to step `i` in this direction, and to gripper steps before
   // it.
@@ -163,29 +176,28 @@ std::vector<TouchOf> touch_during(const Cell& cell, const std::vector<StepReques
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (const auto* attach = std::get_if<AttachRequest>(&steps[i].what)) {
       const Touch touch = touch_of(cell, attach->touch);
-      const LinkId link = *cell.find_link(attach->link);
-      Touch hand{links_of_hand(cell, link)};
+      Touch hand{links_of_hand(cell, *cell.find_link(attach->link))};
       hand.links.insert(hand.links.end(), touch.links.begin(), touch.links.end());
       // Another hand may hold it until then.
       next_to(i, -1, attach->object, hand);
       next_to(i, +1, attach->object, touch);
-      const auto before = carried.find(attach->object);
-      if (before != carried.end()) {
-        next_to(i, +1, attach->object, {links_of_hand(cell, before->second)});
+      const auto before = hands.find(attach->object);
+      if (before != hands.end() && !attach->shared) {
+        for (const LinkId link : before->second) {
+          next_to(i, +1, attach->object, {links_of_hand(cell, link)});
+        }
       }
-      carried.insert_or_assign(attach->object, link);
     } else if (const auto* detach = std::get_if<DetachRequest>(&steps[i].what)) {
       const Touch touch = touch_of(cell, detach->touch);
       next_to(i, -1, detach->object, touch);
       Touch hand{touch.links};
-      const auto by = carried.find(detach->object);
-      if (by != carried.end()) {
-        const auto links = links_of_hand(cell, by->second);
+      for (const LinkId link : leaving(cell, *detach, hands)) {
+        const auto links = links_of_hand(cell, link);
         hand.links.insert(hand.links.end(), links.begin(), links.end());
       }
       next_to(i, +1, detach->object, hand);
-      carried.erase(detach->object);
     }
+    change_holding(cell, steps[i], hands);
   }
   return during;
 }

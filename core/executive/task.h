@@ -60,7 +60,8 @@ struct Task {
   // Returns the job of the present motion, or of the next one; nullopt after the last one.
   [[nodiscard]] std::optional<JobId> next_motion() const;
   [[nodiscard]] std::vector<JobId> motions() const;
-  // Returns the steps to come, the present one included unless it is done.
+  // Returns the index of the first step to come: the present one unless it is done.
+  [[nodiscard]] std::size_t first_to_come() const { return at + (is_present_done ? 1 : 0); }
   [[nodiscard]] std::vector<StepRequest> to_come() const;
 };
 
@@ -87,27 +88,31 @@ class TaskBook {
   [[nodiscard]] std::vector<JobId> active() const;
   // Tasks that have begun and not ended.
   [[nodiscard]] std::vector<Task*> begun();
-  // Changes what links carry (by object) as the steps to come of all tasks do.
-  void change_holding(const Cell& cell, std::map<std::string, LinkId>& carried) const;
+  // Changes what hands hold as the steps to come of all tasks do.
+  void change_holding(const Cell& cell, HandsOf& hands) const;
 
  private:
   std::map<JobId, Task> tasks_;          // by id
   std::map<JobId, JobId> id_of_motion_;  // Task::id, by motion
 };
 
-// Changes what links carry (by object) as these steps do. Precondition: their links are known.
-void change_holding(const Cell& cell, std::span<const StepRequest> steps,
-                    std::map<std::string, LinkId>& carried);
+// Change what hands hold as the steps do. Precondition: their links are known.
+void change_holding(const Cell& cell, const StepRequest& step, HandsOf& hands);
+void change_holding(const Cell& cell, std::span<const StepRequest> steps, HandsOf& hands);
+
+// Returns the hands that let go by this step.
+[[nodiscard]] std::vector<LinkId> leaving(const Cell& cell, const DetachRequest& detach,
+                                          const HandsOf& hands);
 
 // Links and objects by their names. A name that is no link is an object.
 [[nodiscard]] Touch touch_of(const Cell& cell, const std::vector<std::string>& names);
 // Returns what objects may touch during each step, by index; empty for actions. The hand may touch
 // the object during the last motion before it is attached, and during the first motion after it is
 // detached; `touch` applies to the motions before and after. The gripper's steps next to these
-// belong to them. `carried`: links that carry objects before the first step. Precondition: the
-// links of all `attach` steps are known.
+// belong to them. `hands`: hands that hold objects before the first step. Precondition: the links
+// of all steps are known.
 [[nodiscard]] std::vector<TouchOf> touch_during(const Cell& cell,
                                                 const std::vector<StepRequest>& steps,
-                                                std::map<std::string, LinkId> carried);
+                                                HandsOf hands);
 
 }  // namespace armloom

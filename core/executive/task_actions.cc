@@ -21,21 +21,20 @@ bool TaskActions::takes_wake() {
 Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
   if (const auto* attach = std::get_if<AttachRequest>(&request.what)) {
     const LinkId link = *cell_->find_link(attach->link);
-    const auto carrier = carrier_of(*scene_.scene(), attach->object);
-    for (const LinkId hand : {link, carrier.value_or(link)}) {
-      const auto has_arm = has_arm_of(task, hand);
-      if (!has_arm || !*has_arm) return has_arm;
-    }
+    std::vector<LinkId> hands = hands_at(*scene_.scene(), attach->object);
+    hands.insert(hands.begin(), link);
+    const auto has_arms = has_arms_of(task, hands);
+    if (!has_arms || !*has_arms) return has_arms;
     auto content = attached(*scene_.scene(), execution_.motions().measured(), attach->object, link,
-                            touch_of(*cell_, attach->touch));
+                            touch_of(*cell_, attach->touch), attach->shared);
     if (!content) return failure(std::move(content.error()));
     return changed_holding(task, attach->object, std::move(*content));
   }
   if (const auto* detach = std::get_if<DetachRequest>(&request.what)) {
-    const auto carrier = carrier_of(*scene_.scene(), detach->object);
-    const auto has_arm = carrier ? has_arm_of(task, *carrier) : Result<bool>(true);
-    if (!has_arm || !*has_arm) return has_arm;
-    auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object);
+    const auto has_arms = has_arms_of(task, hands_at(*scene_.scene(), detach->object));
+    if (!has_arms || !*has_arms) return has_arms;
+    auto content = detached(*scene_.scene(), execution_.motions().measured(), detach->object,
+                            cell_->find_link(detach->link));
     if (!content) return failure(std::move(content.error()));
     return changed_holding(task, detach->object, std::move(*content));
   }
@@ -70,10 +69,17 @@ Result<bool> TaskActions::act(Task& task, const StepRequest& request) {
   return false;
 }
 
-// Returns true if no other job moves the arm of the link. Otherwise the task waits for that. It
-// fails if it does not move this arm, or if it would wait for a job that may wait for this task.
-Result<bool> TaskActions::has_arm_of(Task& task, LinkId link) {
-  const ArmId arm = *cell_->link(link).arm;
+Result<bool> TaskActions::has_arms_of(Task& task, const std::vector<LinkId>& hands) {
+  for (const LinkId hand : hands) {
+    const auto has_it = has_arm(task, *cell_->link(hand).arm);
+    if (!has_it || !*has_it) return has_it;
+  }
+  return true;
+}
+
+// Returns true if no other job moves the arm. Otherwise the task waits for that. It fails if it
+// does not move this arm, or if it would wait for a job that may wait for this task.
+Result<bool> TaskActions::has_arm(Task& task, ArmId arm) {
   const std::string& name = cell_->arm(arm).name;
   if (!moves(task, arm)) {
     return failure(Problem{ProblemKind::conflict, "held-by-another-arm", "",
@@ -141,30 +147,15 @@ Result<bool> TaskActions::changed_holding(Task& task, const std::string& object,
 }
 
 Result<CollisionObject> TaskActions::detach(const std::string& object) {
-  const auto carrier = carrier_of(*scene_.scene(), object);
-  if (!carrier) {
+  const std::vector<ArmId> arms = armloom::arms_of(*cell_, hands_at(*scene_.scene(), object));
+  if (arms.empty()) {
     const auto found = std::ranges::find(scene_.objects(), object, &CollisionObject::name);
     if (found == scene_.objects().end()) return failure(no_object(object));
     return failure(Problem{ProblemKind::conflict, "not-held", "",
                            "no arm holds \"" + object + "\": it is part of the scene", object});
   }
-  const ArmId arm = *cell_->link(*carrier).arm;
-  const std::string& name = cell_->arm(arm).name;
-  if (execution_.motions().moving(arm)) {
-    return failure(Problem{ProblemKind::conflict, "arm-moves", "",
-                           "arm " + name +
-                               " moves: wait until it rests, or stop it with "
-                               "POST /arms/" +
-                               name + "/stop",
-                           object});
-  }
-  for (const Task* task : tasks_.begun()) {
-    if (!moves(*task, arm)) continue;
-    const std::string& key = jobs_.key(task->id);
-    return failure(Problem{ProblemKind::conflict, "job-under-way", "",
-                           "job " + key + " is under way and uses arm " + name +
-                               ": cancel it first with DELETE /jobs/" + key,
-                           object});
+  for (const ArmId arm : arms) {
+    if (auto used = arm_in_use(arm, object)) return failure(*std::move(used));
   }
   auto content = detached(*scene_.scene(), execution_.motions().measured(), object);
   if (!content) return failure(std::move(content.error()));
@@ -172,8 +163,30 @@ Result<CollisionObject> TaskActions::detach(const std::string& object) {
     return failure(std::move(done.error()));
   }
   TouchOf left{{object, touch_in(*scene_.scene(), object)}};
-  for (const std::string& at : touch_left_.change(left, {}, {arm})) show_touch(at);
+  for (const std::string& at : touch_left_.change(left, {}, arms)) show_touch(at);
   return place_of(*scene_.scene(), object).object;
+}
+
+// Returns the problem that the arm moves, or is used by a job, so that it cannot let the object go.
+std::optional<Problem> TaskActions::arm_in_use(ArmId arm, const std::string& object) const {
+  const std::string& name = cell_->arm(arm).name;
+  if (execution_.motions().moving(arm)) {
+    return Problem{ProblemKind::conflict, "arm-moves", "",
+                   "arm " + name +
+                       " moves: wait until it rests, or stop it with "
+                       "POST /arms/" +
+                       name + "/stop",
+                   object};
+  }
+  for (const Task* task : tasks_.begun()) {
+    if (!moves(*task, arm)) continue;
+    const std::string& key = jobs_.key(task->id);
+    return Problem{ProblemKind::conflict, "job-under-way", "",
+                   "job " + key + " is under way and uses arm " + name +
+                       ": cancel it first with DELETE /jobs/" + key,
+                   object};
+  }
+  return std::nullopt;
 }
 
 // Sets what the task allows to touch.

@@ -183,6 +183,9 @@ Trial InquiryDesk::trial_of(const OpenStepsCheck& open) {
   Scheduler scheduler = open.is_first
                             ? scheduler_
                             : with_arms_at(scheduler_, cell_, open.arms, preview.at(), clock_.now);
+  SceneChanged scene{{}, shared_holds(*cell_, hands_of(*preview.scene()))};
+  const bool is_present = scene.shared_holds == scheduler.state().around.shared_holds;
+  if (!is_present) (void)scheduler.step(std::move(scene), clock_.now);
   const auto before = open.is_first ? std::nullopt : std::optional(JobId{0});
   Submit asked = intake_.submission(open.job, preview.motion(), before);
   asked.job = scheduler.next_job();
@@ -195,7 +198,7 @@ Trial InquiryDesk::trial_of(const OpenStepsCheck& open) {
     behind.back().awaits_actions = step.step.is_awaited;
   }
   return {std::move(scheduler),
-          open.is_first ? open_now() : Trial::Open{},
+          open.is_first && is_present ? open_now() : Trial::Open{},
           {asked},
           asked.job,
           clock_.now,

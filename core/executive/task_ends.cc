@@ -33,7 +33,7 @@ void TaskRun::end_misfits() {
     const std::vector<StepRequest> steps = task->to_come();
     const auto misfit = find_misfit(*cell_, steps, present);
     if (!misfit) {
-      change_holding(*cell_, steps, present.carried);
+      change_holding(*cell_, steps, present.hands);
       continue;
     }
     task->misfit = "what the arms hold has changed since the job was accepted: " + *misfit;

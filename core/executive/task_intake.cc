@@ -1,9 +1,6 @@
 #include "core/executive/task_intake.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -11,12 +8,11 @@
 
 #include "core/base/add_below.h"
 #include "core/executive/gripper_goal.h"
+#include "core/executive/hands_together.h"
 #include "core/executive/job_intake.h"
 #include "core/executive/signals.h"
 #include "core/model/payload.h"
-#include "core/planning/plan_goal.h"
 #include "core/trajectory/implicit_start.h"
-#include "core/trajectory/set_joints.h"
 
 namespace armloom {
 
@@ -32,13 +28,14 @@ class StepCheck {
       : cell_(cell),
         steps_(steps),
         known_(present.names.begin(), present.names.end()),
-        holder_(present.carried),
+        hands_(present.hands),
         masses_kg_(present.masses_kg),
         problems_(problems) {}
 
   void check() {
     for (at_ = 0; at_ < steps_.size(); ++at_) {
       std::visit([this](const auto& what) { look(what); }, steps_[at_].what);
+      if (are_links_known(steps_[at_])) change_holding(cell_, steps_[at_], hands_);
     }
     if (std::ranges::none_of(steps_, &StepRequest::is_motion)) {
       problems_.push_back({ProblemKind::invalid,
@@ -65,7 +62,35 @@ class StepCheck {
         {ProblemKind::invalid, slug, place_of_step(at_) + member, std::move(detail), value});
   }
 
+  // Returns false if a link of the step is unknown.
+  [[nodiscard]] bool are_links_known(const StepRequest& step) const {
+    if (const auto* attach = std::get_if<AttachRequest>(&step.what)) {
+      const auto link = cell_.find_link(attach->link);
+      return link && cell_.link(*link).arm;
+    }
+    const auto* detach = std::get_if<DetachRequest>(&step.what);
+    return detach == nullptr || detach->link.empty() || cell_.find_link(detach->link);
+  }
+  // Returns the arms that the step moves.
+  [[nodiscard]] std::vector<ArmId> moved_by(const StepRequest& step) const {
+    const auto named = [this](const std::string& name) {
+      const auto arm = cell_.find_arm(name);
+      return arm ? std::vector{*arm} : std::vector<ArmId>{};
+    };
+    if (const auto* gripper = std::get_if<GripperStepRequest>(&step.what))
+      return named(gripper->arm);
+    const auto* motion = std::get_if<MotionStepRequest>(&step.what);
+    if (motion == nullptr) return {};
+    return motion->move_to ? named(motion->arm) : arms_of(motion->trajectory, cell_);
+  }
+  void look_at_others(const char* member) {
+    auto alone =
+        find_moves_alone(cell_, hands_, moved_by(steps_[at_]), place_of_step(at_) + member);
+    if (alone) problems_.push_back(*std::move(alone));
+  }
+
   void look(const MotionStepRequest& motion) {
+    look_at_others(motion.move_to ? "/move_to" : "/trajectory/joint_names");
     for (std::size_t t = 0; t < motion.triggers.size(); ++t) {
       const TriggerRequest& trigger = motion.triggers[t];
       const std::string place = "/triggers/" + std::to_string(t) + "/set_io";
@@ -73,6 +98,7 @@ class StepCheck {
     }
   }
   void look(const GripperStepRequest& gripper) {
+    look_at_others("/gripper");
     if (auto found = joints_at_width(cell_, gripper); !found) {
       for (Problem& problem : found.error()) {
         problem.pointer = place_of_step(at_) + problem.pointer;
@@ -97,30 +123,48 @@ class StepCheck {
               "hand",
           attach.link);
     } else {
-      const auto held = holder_.find(attach.object);
-      if (held != holder_.end() && held->second == *link) {
+      const std::vector<LinkId> hands = hands_at(attach.object);
+      const auto is_of_arm = [&](LinkId hand) {
+        return cell_.link(hand).arm == cell_.link(*link).arm;
+      };
+      const bool is_twice =
+          attach.shared ? std::ranges::any_of(hands, is_of_arm) : hands == std::vector{*link};
+      if (is_twice) {
         add("held-twice", "/attach/object",
             attach.link + " holds " + attach.object + " already: detach it before", attach.object);
       }
-      if (held != holder_.end()) {  // it changes hands: both must stay until then
-        look_for_motion_of(*cell_.link(held->second).arm, "/attach/object", attach.object);
+      if (attach.shared && hands.empty()) {
+        add("not-held", "/attach/shared",
+            "no arm holds " + attach.object +
+                " then: leave out \"shared\", or attach it in a step before",
+            attach.object);
       }
-      holder_.insert_or_assign(attach.object, *link);
       look_at_mass(attach.object, *link);
-      look_for_motion_of(*cell_.link(*link).arm, "/attach/link", attach.link);
+      look_for_motion_of(hands, "/attach/object", attach.object);  // they must stay until then
+      look_for_motion_of({*link}, "/attach/link", attach.link);
     }
   }
   void look(const DetachRequest& detach) {
     look_at_object(detach.object, "/detach/object");
     look_at_touch(detach.touch, "/detach/touch");
-    const auto by = holder_.find(detach.object);
-    if (by != holder_.end()) {
-      look_for_motion_of(*cell_.link(by->second).arm, "/detach/object", detach.object);
-      holder_.erase(by);
+    const std::vector<LinkId> hands = hands_at(detach.object);
+    const auto link = cell_.find_link(detach.link);
+    if (!hands.empty() && link && std::ranges::count(hands, *link) == 0) {
+      add("not-held", "/detach/link", detach.link + " does not hold " + detach.object + " then",
+          detach.link);
+    } else if (!detach.link.empty() && !link) {
+      add("unknown-link", "/detach/link", "the cell has no link \"" + detach.link + "\"",
+          detach.link);
+    } else if (!hands.empty()) {
+      look_for_motion_of(hands, "/detach/object", detach.object);
     } else if (known_.contains(detach.object)) {
       add("not-held", "/detach/object",
           "no arm holds " + detach.object + " then: attach it in a step before", detach.object);
     }
+  }
+  [[nodiscard]] std::vector<LinkId> hands_at(const std::string& object) const {
+    const auto hands = hands_.find(object);
+    return hands == hands_.end() ? std::vector<LinkId>{} : hands->second;
   }
   void look(const WaitRequest&) {}
   void look(const SetIoRequest& io) { look_at_output(io.signal, io.value, "/set_io"); }
@@ -168,28 +212,26 @@ class StepCheck {
     add("input-of-device", at + "/name",
         signal + " is an input of a device: only outputs and simulated inputs can be set", signal);
   }
-  // The arm must stay with the task: others could move it otherwise, before the action is done.
-  void look_for_motion_of(ArmId arm, const char* member, const std::string& value) {
-    const std::string& name = cell_.arm(arm).name;
-    const auto moves = [&](const StepRequest& step) {
-      if (const auto* gripper = std::get_if<GripperStepRequest>(&step.what)) {
-        return gripper->arm == name;
-      }
-      const auto* motion = std::get_if<MotionStepRequest>(&step.what);
-      if (motion == nullptr) return false;
-      if (motion->move_to || !motion->arm.empty()) return motion->arm == name;
-      return std::ranges::count(arms_of(motion->trajectory, cell_), arm) > 0;
-    };
-    const auto after = steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1;
-    if (std::any_of(after, steps_.end(), moves)) return;
-    add("no-motion-after", member,
-        "no step after this one moves " + name + ": add the motion by which it leaves", value);
+  // The arms must stay with the task: others could move them otherwise, before the action is done.
+  void look_for_motion_of(const std::vector<LinkId>& hands, const char* member,
+                          const std::string& value) {
+    for (const ArmId arm : arms_of(cell_, hands)) {
+      const auto moves = [&](const StepRequest& step) {
+        return std::ranges::count(moved_by(step), arm) > 0;
+      };
+      const auto after = steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1;
+      if (std::any_of(after, steps_.end(), moves)) continue;
+      add("no-motion-after", member,
+          "no step after this one moves " + cell_.arm(arm).name +
+              ": add the motion by which it leaves",
+          value);
+    }
   }
 
   const Cell& cell_;
   const std::vector<StepRequest>& steps_;
   std::set<std::string> known_;
-  std::map<std::string, LinkId> holder_;  // link, by object
+  HandsOf hands_;
   const std::map<std::string, double>& masses_kg_;
   Problems& problems_;
   std::size_t at_ = 0;
@@ -202,57 +244,14 @@ void find_bad_steps(const Cell& cell, const std::vector<StepRequest>& steps,
   StepCheck(cell, steps, present, problems).check();
 }
 
-Result<std::map<std::string, double>> joints_at_width(const Cell& cell,
-                                                      const GripperStepRequest& gripper) {
-  const auto id = cell.find_arm(gripper.arm);
-  if (!id) {
-    return failure(Problem{ProblemKind::invalid, "unknown-arm", "/gripper/arm",
-                           "the cell has no arm \"" + gripper.arm + "\"", gripper.arm});
-  }
-  const Arm& arm = cell.arm(*id);
-  double per_joint = 0.0, offset = 0.0;
-  bool turns = false;
-  for (const Link& link : cell.links) {
-    if (!link.driver || std::ranges::count(arm.gripper_joints, *link.driver) == 0) continue;
-    turns = turns || link.motion != JointKind::prismatic;
-    per_joint += std::abs(link.multiplier);
-    offset += link.offset;
-  }
-  if (turns || per_joint == 0.0) {
-    return failure(Problem{
-        ProblemKind::invalid, "no-width", "/gripper/width_m",
-        "arm " + arm.name + (turns ? " has a gripper whose fingers turn" : " has no gripper") +
-            ": move gripper joints by \"move_to\": {\"joints\": {NAME: position}}",
-        gripper.width_m});
-  }
-  const double position = (gripper.width_m - offset) / per_joint;
-  std::map<std::string, double> positions;
-  for (const JointId joint : arm.gripper_joints) {
-    const Joint& known = cell.joint(joint);
-    if (!is_within_limits(known, position)) {
-      char text[160];
-      std::snprintf(text, sizeof text, "a width of %.6g m is outside %.6g to %.6g m",
-                    gripper.width_m, known.lower * per_joint + offset,
-                    known.upper * per_joint + offset);
-      return failure(Problem{ProblemKind::invalid, "limit-exceeded", "/gripper/width_m", text,
-                             gripper.width_m});
-    }
-    positions[known.name] = position;
-  }
-  return positions;
-}
-
 PresentObjects present_objects(const PlanningScene& scene) {
-  PresentObjects present;
+  PresentObjects present{.names = {}, .hands = hands_of(scene)};
   const auto add = [&](const CollisionObject& object) {
     present.names.push_back(object.name);
     if (object.mass.kg > 0.0) present.masses_kg.emplace(object.name, object.mass.kg);
   };
   for (const CollisionObject& object : scene.objects()) add(object);
-  for (const Attachment& held : scene.attachments()) {
-    add(held.object);
-    present.carried.emplace(held.object.name, held.link);
-  }
+  for (const Attachment& held : scene.attachments()) add(held.object);
   return present;
 }
 
@@ -262,7 +261,7 @@ std::optional<std::string> find_misfit(const Cell& cell, const std::vector<StepR
   find_bad_steps(cell, steps, present, problems);
   for (const Problem& problem : problems) {
     const bool is_of_holding = problem.slug == "not-held" || problem.slug == "held-twice" ||
-                               problem.slug == "no-motion-after";
+                               problem.slug == "no-motion-after" || problem.slug == "moves-alone";
     if (is_of_holding) return problem.detail;
   }
   return std::nullopt;
@@ -276,26 +275,26 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
                         "a job with steps cannot be reordered: leave out \"reorderable\"", "true"});
   }
   PresentObjects present = present_objects(*scene_());
-  tasks_.change_holding(*cell_, present.carried);
-  if (ahead.carried) present.carried = *ahead.carried;
+  present.hands = hands(ahead);
   find_bad_steps(*cell_, request.steps, present, problems);
   if (!problems.empty()) return {};
-  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, present.carried);
-  change_holding(*cell_, request.steps, present.carried);
-  ahead.carried = std::move(present.carried);
+  std::vector<TouchOf> touch = touch_during(*cell_, request.steps, present.hands);
   std::vector<PreparedJob::PreparedStep> steps;
   bool acts_before = false, is_first = true;
   const TouchOf* before = nullptr;
+  HandsTogether together(*cell_);
   for (std::size_t i = 0; i < request.steps.size(); ++i) {
     const StepRequest& asked = request.steps[i];
     PreparedJob::PreparedStep& step = steps.emplace_back();
     step.step.request = asked;
+    change_holding(*cell_, asked, present.hands);
     if (!asked.is_motion()) {
       acts_before = true;
       continue;
     }
     Problems found;
     step.motion = read_step(asked, request, is_first, ahead, found);
+    if (found.empty()) together.find_apart(*step.motion, present.hands, ahead.rest, found);
     add_below(place_of_step(i), std::move(found), problems);
     if (!problems.empty()) return {};
     const bool is_gripper = std::holds_alternative<GripperStepRequest>(asked.what);
@@ -305,6 +304,7 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
     before = &touch[i];
     acts_before = is_first = false;
   }
+  ahead.hands = std::move(present.hands);
   return steps;
 }
 
@@ -328,16 +328,6 @@ PreparedMotion JobIntake::read_step(const StepRequest& asked, const JobRequest& 
   if (is_first) alone.terms.move_to_start = request.terms.move_to_start;
   if (motion.move_to) alone.terms.move_to_start = MoveToStart::none;
   return read_motion(alone, ahead, problems);
-}
-
-Result<TrajectoryPtr> gripper_motion(const GripperStepRequest& gripper, const Cell& cell,
-                                     const Configuration& rest) {
-  auto positions = joints_at_width(cell, gripper);
-  if (!positions) return failure(std::move(positions.error()));
-  JobRequest request;
-  request.arm = gripper.arm;
-  request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = {}, .gripper = *positions};
-  return gripper_motion(request, cell, rest);
 }
 
 }  // namespace armloom

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/add_below.h"
+#include "core/executive/gripper_goal.h"
 #include "core/executive/holding.h"
 #include "core/executive/task_intake.h"
 #include "core/trajectory/set_joints.h"

@@ -34,16 +34,19 @@ struct GripperStepRequest {
   double width_m = 0.0;
 };
 // The link carries the object from now on. `touch`: links and objects that the object may touch
-// until the next motion of the arm has ended, besides the hand.
+// until the next motion of the arm has ended, besides the hand. `shared`: the hands that hold the
+// object keep it. From then on, their arms move only together.
 struct AttachRequest {
   std::string object, link;
   std::vector<std::string> touch = {};
+  bool shared = false;
 };
-// The object stays where it is. `touch`: links and objects that it may touch during the motion
-// before.
+// The object stays where it is, or in the other hand. `link`: lets go; if empty, all hands do.
+// `touch`: links and objects that it may touch during the motion before.
 struct DetachRequest {
   std::string object;
   std::vector<std::string> touch = {};
+  std::string link = {};
 };
 struct WaitRequest {
   Duration time{};

@@ -38,7 +38,9 @@ class TaskActions : Modules {
   [[nodiscard]] bool takes_wake();
 
  private:
-  Result<bool> has_arm_of(Task& task, LinkId link);
+  Result<bool> has_arms_of(Task& task, const std::vector<LinkId>& hands);
+  Result<bool> has_arm(Task& task, ArmId arm);
+  [[nodiscard]] std::optional<Problem> arm_in_use(ArmId arm, const std::string& object) const;
   bool set_output(Task& task, const std::string& name, const SignalValue& value);
   Result<bool> changed_holding(Task& task, const std::string& object,
                                PlanningScene::Content content);

@@ -17,8 +17,12 @@ std::string text(const GripperStepRequest& gripper) {
   std::snprintf(width, sizeof width, ": %.6g m", gripper.width_m);
   return gripper.arm + width;
 }
-std::string text(const AttachRequest& attach) { return attach.object + " to " + attach.link; }
-std::string text(const DetachRequest& detach) { return detach.object; }
+std::string text(const AttachRequest& attach) {
+  return attach.object + " to " + attach.link + (attach.shared ? " too" : "");
+}
+std::string text(const DetachRequest& detach) {
+  return detach.object + (detach.link.empty() ? "" : " from " + detach.link);
+}
 std::string text(const WaitRequest& wait) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.6g s", to_seconds(wait.time));

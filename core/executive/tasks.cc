@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/executive/arms_of.h"
+#include "core/executive/gripper_goal.h"
 #include "core/executive/task_intake.h"
 #include "core/executive/task_run.h"
 #include "core/executive/task_view.h"

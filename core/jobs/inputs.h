@@ -15,6 +15,7 @@
 #include "core/coordination/proximity.h"
 #include "core/coordination/verdict.h"
 #include "core/jobs/job_terms.h"
+#include "core/jobs/shared_hold.h"
 #include "core/trajectory/trajectory.h"
 
 namespace armloom {
@@ -175,6 +176,7 @@ struct Unlocated {
 // again if they move one of `arms` (arms_in_question).
 struct SceneChanged {
   std::vector<ArmId> arms;
+  std::vector<SharedHold> shared_holds = {};  // all, from now on
 };
 // Sets the speed override of the arm, or of the cell. Precondition: SpeedOverride::is_valid(share).
 struct SetSpeed {

@@ -70,18 +70,21 @@ struct Wait {
     guard,
     speed,
     io,
-    action
+    action,
+    holding
   };
   Kind kind;
   std::optional<JobId> job;  // job, predecessor, capacity
-  // arm, stop; speed: if it is the arm's override; job: the other arm that comes too close
+  // arm, stop; holding: the arm that must move too; speed: if it is the arm's override; job: the
+  // other arm that comes too close
   std::optional<ArmId> arm;
   // job, arm, object: the pair of links that comes too close; predecessor: the same, if this job
   // would end in the path of that job
   std::optional<Proximity> proximity;
   Duration own_time{};    // with proximity: time in this job's trajectory
   Duration other_time{};  // and in the other trajectory
-  // stop: its cause; speed: the remedy; predecessor: why it goes first; io: what the signal is
+  // stop: its cause; speed, holding: the remedy; predecessor: why it goes first; io: what the
+  // signal is
   std::string detail = {};
   std::string signal = {};        // io
   bool has_no_way_aside = false;  // arm: all retreats of that arm were tried
@@ -120,6 +123,8 @@ struct Wait {
       return "io";
     case Wait::Kind::action:
       return "action";
+    case Wait::Kind::holding:
+      return "holding";
   }
   return nullptr;
 }

@@ -31,7 +31,15 @@ std::optional<Wait> speed_wait(const State& state, const Step& step) {
 
 std::optional<Wait> operator_wait(const State& state, const Step& step) {
   if (auto stop = state.arms.stop_of(step)) return stop;
-  for (const ArmId arm : step.trajectory->arms()) {
+  const auto& arms = step.trajectory->arms();
+  const auto* hold = hold_broken_by(arms, state.around.shared_holds);
+  if (hold != nullptr && !step.job->awaits_actions) {  // which may let the object go
+    const auto is_other = [&](ArmId arm) { return std::ranges::count(arms, arm) == 0; };
+    return Wait{.kind = Wait::Kind::holding,
+                .arm = *std::ranges::find_if(hold->arms, is_other),
+                .detail = text_of(*hold, *state.cell)};
+  }
+  for (const ArmId arm : arms) {
     const auto other = state.arms.unlocated_beside(arm);
     if (!other) continue;
     const auto& stop = state.arms.stop_of(*other);

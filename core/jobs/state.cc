@@ -27,10 +27,11 @@ std::vector<Effect> StateWriter::take_effects() {
   return result;
 }
 
-void StateWriter::change_scene() {
+void StateWriter::change_scene(std::vector<SharedHold> shared_holds) {
   ++state_.changes_;
   state_.around.scene_since = state_.version();
   state_.around.refused_plans = {};
+  state_.around.shared_holds = std::move(shared_holds);
   state_.lanes.forget_passages();
 }
 

@@ -14,6 +14,7 @@
 #include "core/jobs/job_book.h"
 #include "core/jobs/lanes.h"
 #include "core/jobs/refused_plans.h"
+#include "core/jobs/shared_hold.h"
 #include "core/jobs/speed_override.h"
 #include "core/model/cell.h"
 #include "core/precedence/precedence_graph.h"
@@ -34,6 +35,7 @@ struct Surroundings {
   std::map<std::string, SignalChanged> signals = {};  // the last of each, by name
   Version scene_since = 0;          // the version since which the scene is unchanged
   RefusedPlans refused_plans = {};  // in this scene
+  std::vector<SharedHold> shared_holds = {};
 };
 
 // The state that all modules of the scheduler read. Only StateWriter and Transitions write it. A
@@ -115,7 +117,7 @@ class StateWriter {
   // before its consequences.
   [[nodiscard]] std::vector<Effect> take_effects();
 
-  void change_scene();
+  void change_scene(std::vector<SharedHold> shared_holds);
   // Keeps what the answer says about paths that do not exist.
   void learn(const PlanQuestion& question, const PlanMade& answer) {
     state_.around.refused_plans.learn(*state_.cell, question, answer);

@@ -16,6 +16,13 @@ struct Attachment {
   Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
   std::vector<LinkId> touch;  // links of any robot that the object may touch besides the hand
   std::vector<std::string> touch_objects = {};  // objects of the scene that it may touch
+  // Hands of other arms that hold it too, and may touch it. The object moves with `link` in every
+  // check: these arms move only together.
+  struct Other {
+    LinkId link;
+    Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
+  };
+  std::vector<Other> others = {};
 };
 
 // Links that may touch an object of the scene at present, besides those that the cell file allows.

@@ -8,8 +8,13 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-bool is_carried_by(const Cell& cell, const Attachment& held, ArmId arm) {
-  return cell.link(held.link).arm == arm;
+// Returns the pose of the object in the hand of this arm; null if the arm does not hold it.
+const Eigen::Isometry3d* pose_in_hand(const Cell& cell, const Attachment& held, ArmId arm) {
+  if (cell.link(held.link).arm == arm) return &held.X_LO;
+  for (const Attachment::Other& other : held.others) {
+    if (cell.link(other.link).arm == arm) return &other.X_LO;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -18,8 +23,9 @@ double counted_mass(const Cell& cell, ArmId arm, std::span<const Attachment> hel
   const auto& payload = cell.arm(arm).payload;
   double counted_kg = 0.0;
   for (const Attachment& one : held) {
-    if (!payload || !is_carried_by(cell, one, arm)) continue;
-    const double lever_m = (one.X_LO * one.object.mass.center).norm();
+    const Eigen::Isometry3d* X_LO = pose_in_hand(cell, one, arm);
+    if (!payload || X_LO == nullptr) continue;
+    const double lever_m = (*X_LO * one.object.mass.center).norm();
     counted_kg += one.object.mass.kg * std::max(1.0, lever_m / payload->lever_m);
   }
   return counted_kg;
@@ -37,7 +43,7 @@ std::optional<Problem> find_overload(const Cell& cell, ArmId arm,
   const Arm& carrier = cell.arm(arm);
   if (!carrier.payload) {
     const auto heavy = std::ranges::find_if(held, [&](const Attachment& one) {
-      return is_carried_by(cell, one, arm) && one.object.mass.kg > 0.0;
+      return pose_in_hand(cell, one, arm) != nullptr && one.object.mass.kg > 0.0;
     });
     if (heavy == held.end()) return std::nullopt;
     return Problem{ProblemKind::conflict, "payload-unknown", "",

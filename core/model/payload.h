@@ -12,8 +12,9 @@ namespace armloom {
 
 // What an arm carries, as its payload (PayloadDescription) counts it.
 
-// Returns the mass of the objects that the arm carries (kg), each times the lever of its center of
-// mass if that is beyond PayloadDescription::lever_m. Zero if the arm states no payload.
+// Returns the mass of the objects that the arm holds (kg), each times the lever of its center of
+// mass if that is beyond PayloadDescription::lever_m. Objects that several arms hold count in full
+// for each: any of them may bear the load. Zero if the arm states no payload.
 [[nodiscard]] double counted_mass(const Cell& cell, ArmId arm, std::span<const Attachment> held);
 
 // Returns the share of its limits of brake and acceleration that the arm keeps with these objects:

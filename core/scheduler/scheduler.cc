@@ -98,7 +98,13 @@ void take(Transitions& state, const SetSpeed& input) { set_speed(state, input); 
 void take(Transitions& state, const SetBrake& input) { set_brake(state, input); }
 
 void take(Transitions& state, const SceneChanged& input) {
-  state.change_scene();
+  std::vector<ArmId> held;
+  for (const auto* holds : {&state->around.shared_holds, &input.shared_holds}) {
+    for (const SharedHold& hold : *holds)
+      held.insert(held.end(), hold.arms.begin(), hold.arms.end());
+  }
+  state.change_scene(input.shared_holds);
+  explain_again(state, held);
   for (const Step& step : state->jobs.past_queue()) {
     const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
     if (std::ranges::any_of(step.leg.arms, is_named)) state.jobs().put_in_question(step);

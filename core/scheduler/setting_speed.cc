@@ -71,7 +71,8 @@ void explain_again(Transitions& state, const std::vector<ArmId>& arms) {
   }
   for (const Step& step : state->jobs.of(steps)) {
     const auto is_of_operator = [](const Wait& wait) {
-      return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed;
+      return wait.kind == Wait::Kind::stop || wait.kind == Wait::Kind::speed ||
+             wait.kind == Wait::Kind::holding;
     };
     const auto wait = operator_wait(state, step);
     const bool waited = std::ranges::any_of(step.waits_on, is_of_operator);

@@ -49,6 +49,7 @@ std::string waited_for(const Schema& wait, const Present& now = {}) {
     return (arm.empty() ? std::string("a stopped arm") : "arm " + arm) + " to be resumed";
   }
   if (kind == "speed") return "the speed override to be raised";
+  if (kind == "holding") return "arm " + text_at(wait, "arm") + " to let go of what both hold";
   if (kind == "io") return "signal " + text_at(wait, "id");
   if (kind == "predecessor") return blocker_of(wait) + " to end first";
   if (kind == "capacity")
@@ -155,6 +156,9 @@ std::string remedy_of(const Schema& job, const Present& now) {
   }
   if (waits_on(job, "speed")) {
     return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
+  }
+  if (waits_on(job, "holding")) {
+    return " " + text_at(list_at(job, "waits_on").front(), "detail") + "; or " + cancel + ".";
   }
   if (waits_on(job, "action")) return " It goes on by itself when this step is done.";
   if (waits_on(job, "io")) {

@@ -237,7 +237,14 @@ FormatPtr<TouchView> touch_format() {
 }  // namespace
 
 FormatPtr<HeldView> held_format() {
+  using Other = HeldView::Other;
   const auto touch = [](const HeldView& view) { return unless_empty(view.touch); };
+  const auto others = [](const HeldView& view) { return unless_empty(view.shared_with); };
+  const auto other = named("OtherHand", "A further hand that holds an object.",
+                           object<Other>({
+                               output_only("link", &Other::link, text()),
+                               output_only("arm", &Other::arm, text(), "Arm that moves the link"),
+                           }));
   return named("HeldObject", "An object that an arm holds.",
                object<HeldView>({
                    output_only("object", &HeldView::object, object_format(),
@@ -247,6 +254,9 @@ FormatPtr<HeldView> held_format() {
                    output_if("touch", touch, list(text()),
                              "Links and objects that the object may touch at present, besides "
                              "the hand that holds it; absent if there are none"),
+                   output_if("shared_with", others, list(other),
+                             "Other hands that hold the object, too: their arms and `arm` move "
+                             "only together; absent if there are none"),
                }));
 }
 

@@ -14,6 +14,27 @@ namespace {
 
 constexpr const char* kExpiresKey = "expires_ms";
 
+// The matrix without its last row, row by row.
+std::vector<double> rows_of(const Eigen::Isometry3d& pose) {
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(pose(row, column));
+  }
+  return rows;
+}
+
+Result<Eigen::Isometry3d> pose_of(const std::vector<double>& rows) {
+  if (rows.size() != 12) {
+    return failure(
+        Problem{ProblemKind::malformed, "bad-record", "/place", "the pose has not 12 numbers", {}});
+  }
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    pose.matrix()(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = rows[i];
+  }
+  return pose;
+}
+
 }  // namespace
 
 std::string text_with_expiry(const std::string& text, std::int64_t expires_ms) {
@@ -35,11 +56,10 @@ std::optional<std::int64_t> take_expiry(std::string& record) {
 
 std::string text_of_place(const HeldView& place) {
   nlohmann::json record{{"place", {{"link", place.link}}}};
-  std::vector<double> rows;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) rows.push_back(place.object.X_WO(row, column));
+  record["place"]["pose"] = rows_of(place.object.X_WO);
+  for (const HeldView::Other& other : place.shared_with) {
+    record["place"]["shared_with"].push_back({{"link", other.link}, {"pose", rows_of(other.X_LO)}});
   }
-  record["place"]["pose"] = rows;
   record["place"]["object"] = nlohmann::json::parse(text_of(*object_format(), place.object));
   return record.dump();
 }
@@ -52,7 +72,8 @@ Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& ce
   };
   try {
     const nlohmann::json& place = record.at("place");
-    const auto rows = place.at("pose").get<std::vector<double>>();
+    const auto pose = pose_of(place.at("pose").get<std::vector<double>>());
+    if (!pose) return failure(pose.error());
     nlohmann::json body = place.at("object");
     HeldView held;
     held.link = place.at("link").get<std::string>();
@@ -67,10 +88,11 @@ Result<std::optional<HeldView>> read_place(std::string_view text, const Cell& ce
       if (!read) return failure(std::move(read.error()));
       held.object = std::move(*read);
     }
-    if (rows.size() != 12) return bad("the pose has not 12 numbers");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      held.object.X_WO.matrix()(static_cast<Eigen::Index>(i / 4),
-                                static_cast<Eigen::Index>(i % 4)) = rows[i];
+    held.object.X_WO = *pose;
+    for (const nlohmann::json& other : place.value("shared_with", nlohmann::json::array())) {
+      const auto X_LO = pose_of(other.at("pose").get<std::vector<double>>());
+      if (!X_LO) return failure(X_LO.error());
+      held.shared_with.push_back({other.at("link").get<std::string>(), {}, *X_LO});
     }
     return held;
   } catch (const nlohmann::json::exception&) {

@@ -62,6 +62,10 @@ FormatPtr<AttachRequest> attach_format() {
       field("touch", &Request::touch, touched_names(),
             "Links and objects that the object may touch until the next motion has ended, besides "
             "the hand"),
+      field(
+          "shared", &Request::shared, flag(),
+          "The hands that hold the object keep it. From then on, their arms and this one move only "
+          "together. Default: the object changes hands"),
   });
 }
 
@@ -69,6 +73,8 @@ FormatPtr<DetachRequest> detach_format() {
   using Request = DetachRequest;
   return object<Request>({
       required("object", &Request::object, name(), "Name of an object that an arm holds"),
+      field("link", &Request::link, name(),
+            "Link of the hand that lets go. Default: all hands that hold the object"),
       field("touch", &Request::touch, touched_names(),
             "Links and objects that the object may touch during the motion before, for example the "
             "table"),
@@ -195,7 +201,8 @@ class StepFormat final : public CustomFormat<StepRequest> {
     add("attach", attach_format(), true,
         "The link carries the object from now on. The hand may touch it during the motion before");
     add("detach", detach_format(), true,
-        "The object stays where it is. The hand may touch it during the next motion");
+        "The object stays where it is, or in the other hand. The hand may touch it during the next "
+        "motion");
     const Format<WaitBody> wait = *wait_format();
     kinds_.push_back({{"wait_s"},
                       [wait](const JsonNode& node, StepRequest& out) {

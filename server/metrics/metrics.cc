@@ -52,7 +52,7 @@ class Metrics::Impl {
     for (const Wait::Kind kind :
          {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::predecessor,
           Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard,
-          Wait::Kind::speed, Wait::Kind::io, Wait::Kind::action}) {
+          Wait::Kind::speed, Wait::Kind::io, Wait::Kind::action, Wait::Kind::holding}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
     for (const MonitorFinding::Kind kind : kValues<MonitorFinding::Kind>) {

@@ -85,6 +85,14 @@ class SceneReader {
         }
       }
     });
+    node.optional("shared_with", [&](const JsonNode& all) {
+      all.each([&](const JsonNode& other) {
+        other.required("link", [&](const JsonNode& name) {
+          const auto hand = link_of(name);
+          if (hand && cell_.link(*hand).arm) held.others.push_back({*hand});
+        });
+      });
+    });
     scene.held.push_back(std::move(held));
   }
 

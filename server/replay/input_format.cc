@@ -87,7 +87,8 @@ FormatPtr<In::FormerJob> former_job_format() {
 
 // The object's format stores the rotation as angles, which do not read back to exactly the same
 // matrix. So the matrix X_WO is stored, too, row by row.
-PartPtr<CollisionObject> matrix_part() {
+template <class T>
+PartPtr<T> matrix_part(std::string_view key, Eigen::Isometry3d T::*where) {
   using Rows = std::array<double, 12>;
   using Matrix = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
   const auto rows = [](const Eigen::Isometry3d& X_WO) {
@@ -100,14 +101,22 @@ PartPtr<CollisionObject> matrix_part() {
     X_WO.matrix().topRows<3>() = Eigen::Map<const Matrix>(all.data());
     return X_WO;
   };
-  return always("X_WO", &CollisionObject::X_WO, numbers<12>(kAnyNumber), "", rows, pose);
+  return always(key, where, numbers<12>(kAnyNumber), "", rows, pose);
+}
+
+FormatPtr<HeldView::Other> other_hand_format() {
+  using Other = HeldView::Other;
+  return object<Other>({
+      always("link", &Other::link, text()),
+      matrix_part("X_LO", &Other::X_LO),
+  });
 }
 
 template <class Input>
 PartPtr<Input> object_part() {
   return parts<Input>({
       always("object", &Input::object, object_format()),
-      inlined(&Input::object, matrix_part()),
+      inlined(&Input::object, matrix_part("X_WO", &CollisionObject::X_WO)),
   });
 }
 
@@ -246,7 +255,9 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"expire_objects", {always("objects", &In::ObjectsExpired::names, list(text()))}},
       {"restore_expiry", {expiry_part()}},
       {"hold_object",
-       {object_part<In::ObjectHeld>(), always("link", &In::ObjectHeld::link, text())}},
+       {object_part<In::ObjectHeld>(), always("link", &In::ObjectHeld::link, text()),
+        field("shared_with", &In::ObjectHeld::shared_with, list(other_hand_format()),
+              "Other hands")}},
       {"detach_object", {always("object", &In::ObjectDetached::object, text())}},
       {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},
       {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},

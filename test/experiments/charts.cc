@@ -90,9 +90,11 @@ std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& ro
     picture.word(kRight + 14, y + 15, "start", fixed(mean_s, 2) + " s");
     y += kRow;
   }
-  const double bound_s = mean_bound_s(rows_of(rows, kind.name, policies.back()));
-  picture.upright(scale.x(bound_s), 50, y, "stroke=\"#b04030\" stroke-dasharray=\"4 3\"");
-  picture.word(kLeft, 44, "start", "dashed: lower bound, " + fixed(bound_s, 2) + " s", 12);
+  if (!kind.of_tasks) {
+    const double bound_s = mean_bound_s(rows_of(rows, kind.name, policies.back()));
+    picture.upright(scale.x(bound_s), 50, y, "stroke=\"#b04030\" stroke-dasharray=\"4 3\"");
+    picture.word(kLeft, 44, "start", "dashed: lower bound, " + fixed(bound_s, 2) + " s", 12);
+  }
   scale.draw(picture, y + 6.0);
   return picture.svg(y + 30.0);
 }

@@ -183,10 +183,10 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   for (const WorkloadKind& kind : plan.workloads) {
     // A job's late start may fall into a time in which the job waits anyway. So with delays the
     // optimum is no bound.
-    if (kind.freed_from.empty() && !kind.delayed) all.optimum_is_one(kind.name);
+    if (kind.freed_from.empty() && !kind.delayed && !kind.of_tasks) all.optimum_is_one(kind.name);
   }
   for (const WorkloadKind& kind : plan.workloads) {
-    if (kind.delayed || !kind.freed_from.empty()) continue;
+    if (kind.delayed || !kind.freed_from.empty() || kind.of_tasks) continue;
     all.near_optimum(kind.name);
     all.never_behind(kind.name, "earliest_start");
   }

@@ -61,12 +61,14 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
   std::map<std::size_t, TimePoint> free_at;  // by arm: when the previous job has ended
   std::size_t started = 0;
   for (const JobView& job : result.jobs) {
+    const auto own = index.find(job.key);
+    if (own == index.end()) continue;  // a retreat
     if (job.state != JobState::succeeded) {
       ++row.not_succeeded;
       std::cerr << row.workload << ", seed " << row.seed << ", " << row.policy << ": " << job.key
                 << " is " << to_string(job.state) << ' ' << job.detail() << '\n';
     }
-    const PlannedJob& known = *index.at(job.key);
+    const PlannedJob& known = *own->second;
     if (!job.times.started_at || !job.times.ended_at) continue;
     const auto before = free_at.find(known.arm.index());
     const TimePoint ready = before == free_at.end()

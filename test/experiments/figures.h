@@ -24,8 +24,8 @@ struct RunRow {
   std::uint64_t seed = 0;
   std::size_t jobs = 0;
   std::size_t not_succeeded = 0;
-  double makespan_s = 0.0;  // from the first submission to the last end
-  Limits limits;
+  double makespan_s = 0.0;   // from the first submission to the last end
+  Limits limits;             // zero if they are not known
   std::vector<double> busy;  // per arm: share of time under way
   double together = 0.0;     // share of time in which the joints of at least two arms move
   // Time until a job starts, from when the previous job of its arm has ended (or, if later, from

@@ -14,17 +14,21 @@ namespace {
 
 constexpr Duration kMoment = std::chrono::milliseconds(50);  // sample step of the lower bound
 
-std::vector<RunRow> run_seed(const WorkloadKind& kind, std::uint64_t seed,
-                             const std::vector<std::string>& policies) {
-  const Workload workload = kind.make(seed);
-  const Workload given =
-      kind.freed_from.empty() ? workload : workload_kind(kind.freed_from).make(seed);
+Limits limits_of(const Workload& given) {
   std::vector<Work> work;
   for (const PlannedJob& job : given.jobs) {
     work.push_back({job.arm, job.delay ? as_delayed(*job.trajectory, *job.delay) : job.trajectory,
                     job.timed.at});
   }
-  const Limits limits{lower_bound(workload.cell, work, kMoment), optimum(workload.cell, work)};
+  return {lower_bound(given.cell, work, kMoment), optimum(given.cell, work)};
+}
+
+std::vector<RunRow> run_seed(const WorkloadKind& kind, std::uint64_t seed,
+                             const std::vector<std::string>& policies) {
+  const Workload workload = kind.make(seed);
+  const Workload given =
+      kind.freed_from.empty() ? workload : workload_kind(kind.freed_from).make(seed);
+  const Limits limits = kind.of_tasks ? Limits{} : limits_of(given);
   std::vector<RunRow> rows;
   if (!workload.one_arm.empty()) {
     rows.push_back(run_policy(workload, kind.name, kOneArm, seed, limits));

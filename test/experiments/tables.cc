@@ -38,6 +38,7 @@ double per_job(std::uint64_t count, const RunRow& row) {
 }
 
 std::string policy_row(const std::string& policy, const Rows& rows, double sequential_s) {
+  const bool has_limits = policy != kOneArm && mean_bound_s(rows) > 0.0;
   const Spread makespan = spread_of(rows, &RunRow::makespan_s);
   double clearance_m = std::numeric_limits<double>::infinity();
   double wait_max_s = 0.0;
@@ -55,9 +56,9 @@ std::string policy_row(const std::string& policy, const Rows& rows, double seque
       "`" + policy + "`",
       fixed(makespan.mean, 2) + " ± " + fixed(makespan.deviation, 2),
       sequential_s > 0.0 ? fixed(makespan.mean / sequential_s, 2) : "-",
-      policy == kOneArm ? "-" : fixed(makespan.mean / mean_bound_s(rows), 2),
-      policy == kOneArm ? "-" : fixed(spread_of(of_optimum(rows)).mean, 3),
-      policy == kOneArm ? "-" : fixed(std::ranges::max(of_optimum(rows)), 3),
+      has_limits ? fixed(makespan.mean / mean_bound_s(rows), 2) : "-",
+      has_limits ? fixed(spread_of(of_optimum(rows)).mean, 3) : "-",
+      has_limits ? fixed(std::ranges::max(of_optimum(rows)), 3) : "-",
       fixed(100.0 * mean(rows, busy), 0) + " %",
       fixed(100.0 * spread_of(rows, &RunRow::together).mean, 0) + " %",
       fixed(spread_of(rows, &RunRow::wait_mean_s).mean, 2),
@@ -77,8 +78,10 @@ std::string workload_heading(const WorkloadKind& kind, const Rows& any) {
   const auto limit = [&](const auto& part) {
     return fixed(mean(any, [&](const RunRow& row) { return part(row.limits); }), 2) + " s";
   };
-  return "\n## " + kind.title + "\n\n" + std::to_string(any.front()->jobs) + " jobs. Lower bound " +
-         limit([](const Limits& l) { return l.bound.bound_s(); }) +
+  const std::string jobs =
+      "\n## " + kind.title + "\n\n" + std::to_string(any.front()->jobs) + " jobs.";
+  if (kind.of_tasks) return jobs + "\n\n";
+  return jobs + " Lower bound " + limit([](const Limits& l) { return l.bound.bound_s(); }) +
          ": the busiest arm's own work " + limit([](const Limits& l) { return l.bound.own_s; }) +
          ", work that excludes each other " +
          limit([](const Limits& l) { return l.bound.excluding_s; }) + ". Optimum between " +

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "core/model/cell/build_cell.h"
 #include "core/model/xml/text_file.h"
 #include "server/codec/cell_codec.h"
+#include "server/messages/job_request.h"
 #include "test/experiments/job_delays.h"
 #include "test/experiments/short_beside_long.h"
 #include "test/experiments/shuttles.h"
@@ -179,6 +181,48 @@ Workload apart(std::uint64_t seed) { return of_fits_and_tending(seed, 0, 7); }
 // In the order of submission both arms first need the fixture, then neither.
 Workload fixture_first(std::uint64_t seed) { return of_fits_and_tending(seed, 5, 5); }
 
+// Arms rest only at home between two tasks.
+void add_ways_home(std::vector<StepRequest>& steps) {
+  std::set<std::string> arms;
+  for (const StepRequest& step : steps) {
+    if (const auto* motion = std::get_if<MotionStepRequest>(&step.what)) arms.insert(motion->arm);
+  }
+  for (const std::string& arm : arms) {
+    MotionStepRequest home{.trajectory = {}, .arm = arm};
+    home.move_to = PlanGoal{.joints = {}, .named = "home", .pose = {}};
+    steps.push_back({"home", std::move(home)});
+  }
+}
+
+// The tasks of config/pick_and_place_jobs.json, twice. They bring the parts there, then back.
+// A handover begins when both arms have done the tasks before it: otherwise an arm may retreat from
+// the place where the other one is to meet it. Drawn: the order of these tasks, and all speeds.
+Workload tasks(std::uint64_t seed) {
+  Workload workload{config("pick_and_place")};
+  const std::string file = source_dir() + "/config/pick_and_place_jobs.json";
+  const auto given = value_of(read_jobs_text(value_of(read_text_file(file, "/", "jobs file"))));
+  std::mt19937_64 random(seed);
+  for (int round = 1; round <= 2; ++round) {
+    std::vector<TimedJob> drawn = given;
+    const auto back = drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2);
+    // The last of three hands the bar over.
+    std::shuffle(drawn.begin(), back - 1, random);
+    std::shuffle(back, drawn.end() - 1, random);
+    std::vector<std::string> alone;  // tasks of one arm since the last handover
+    for (TimedJob& timed : drawn) {
+      const bool is_handover = timed.job.key.starts_with("hand-over");
+      timed.job.key += "-" + std::to_string(round);
+      if (is_handover) timed.job.after = std::exchange(alone, {});
+      if (!is_handover) alone.push_back(timed.job.key);
+      timed.job.speed = uniform(random, 0.5, 1.0);
+      const std::string arm = std::get<MotionStepRequest>(timed.job.steps.front().what).arm;
+      add_ways_home(timed.job.steps);
+      workload.jobs.push_back({*workload.cell->find_arm(arm), "task", std::move(timed), nullptr});
+    }
+  }
+  return workload;
+}
+
 template <std::vector<PlannedJob> (*jobs)(const CellPtr&, std::uint64_t)>
 Workload of_two_pandas(std::uint64_t seed) {
   Workload workload{config("two_pandas")};
@@ -232,6 +276,8 @@ const std::vector<WorkloadKind>& workload_kinds() {
        false, of_two_pandas<visits_in_turn>},
       {"either", "The same visits by whichever arm the plan gives them to", false,
        of_two_pandas<visits_by_either>, false, "in_turn"},
+      {"tasks", "Tasks that pick, hand over and place parts, two Pandas", false, tasks, false, "",
+       true},
   };
   return kinds;
 }

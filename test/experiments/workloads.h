@@ -27,6 +27,8 @@ struct WorkloadKind {
   // Name of the same workload without choices for the scheduler. Its optimum and bounds apply here.
   // Empty if there is none.
   std::string freed_from = {};
+  // Jobs with steps: their paths are planned in the run, so there is no bound and no optimum.
+  bool of_tasks = false;
 };
 
 // Throw std::runtime_error if a cell cannot be read or no open task is found.

@@ -88,8 +88,12 @@ std::vector<std::string> RandomTasks::see(const SceneView& scene) {
   std::map<std::string, int> places;
   for (const std::string& part : parts_) places[part] = 0;
   std::map<std::string, std::size_t> held;
+  shared_with_.clear();
   for (const HeldView& view : scene.held) {
     ++places[view.object.name];
+    for (const HeldView::Other& other : view.shared_with) {
+      shared_with_[view.object.name] = cell_.find_arm(other.arm)->index();
+    }
     held[view.object.name] = cell_.find_arm(view.arm)->index();
   }
   for (const CollisionObject& object : scene.objects()) {
@@ -214,17 +218,53 @@ bool RandomTasks::hand_over(Steps& steps, const std::string& part, std::size_t f
   const auto [qa, qb] = places[random_.index(places.size())];
   steps.push_back(move(from, {qa}));
   steps.push_back(move(to, {qb}));
+  if (random_.chance(0.5)) {
+    steps.push_back({"", AttachRequest{part, hands_[to], {}, true}});
+    add_pause(steps);
+    if (random_.chance(0.5)) carry_together(steps, from, qa, to, qb);
+    add_pause(steps);
+    let_one_go(steps, part, from, to);
+    return true;
+  }
   steps.push_back(attach(part, to));
   steps.push_back(move_anywhere(from));
   place(steps, part, to);
   return true;
 }
 
+// As far as arms can whose axes are not parallel: within the tolerance of their hands.
+void RandomTasks::carry_together(Steps& steps, std::size_t from, double qa, std::size_t to,
+                                 double qb) {
+  constexpr double kLittle_m = 2e-4;
+  MotionStepRequest motion;
+  for (const std::size_t arm : {from, to}) {
+    motion.trajectory.joint_names.push_back(cell_.joint(cell_.arms[arm].joints[0]).name);
+  }
+  const std::vector<double> zero{0.0, 0.0};
+  motion.trajectory.points = {{{qa, qb}, zero, zero, 0.0},
+                              {{qa + kLittle_m, qb - kLittle_m}, zero, zero, 0.5}};
+  steps.push_back({"", std::move(motion)});
+}
+
+void RandomTasks::let_one_go(Steps& steps, const std::string& part, std::size_t first,
+                             std::size_t second) {
+  if (random_.chance(0.3)) std::swap(first, second);
+  steps.push_back({"", DetachRequest{part, {}, hands_[first]}});
+  steps.push_back(move_anywhere(first));
+  steps.push_back(move_anywhere(second));
+  place(steps, part, second);
+}
+
 std::optional<JobRequest> RandomTasks::any() {
   const std::size_t arm = random_.index(hands_.size());
   JobRequest request{.key = "t" + std::to_string(next_), .name = "", .trajectory = {}};
   for (const auto& [part, by] : held_) {
-    if (by == arm && request.steps.empty()) place(request.steps, part, arm);
+    if (by != arm || !request.steps.empty()) continue;
+    if (shared_with_.contains(part)) {
+      let_one_go(request.steps, part, arm, shared_with_.at(part));
+    } else {
+      place(request.steps, part, arm);
+    }
   }
   for (const auto& [part, grasp] : grasps_) {
     const bool is_here = grasp.arm == arm && !held_.contains(part);

@@ -13,8 +13,8 @@
 
 namespace armloom {
 
-// Random jobs with steps: each arm has a part, which it picks, carries, places and hands over. All
-// parts but the first are heavy. The steps also wait, set outputs and wait for an input.
+// Random jobs with steps: each arm has a part, which it picks, carries, places and hands over, also
+// with both hands at the part for a while. All parts but the first are heavy. The steps also wait, set outputs and wait for an input.
 class RandomTasks {
  public:
   // Adds what the tasks use: signals, and what the arms can carry.
@@ -51,6 +51,8 @@ class RandomTasks {
   void pick(Steps& steps, const std::string& part, std::size_t arm);
   [[nodiscard]] bool hand_over(Steps& steps, const std::string& part, std::size_t from,
                                std::size_t to);
+  void carry_together(Steps& steps, std::size_t from, double qa, std::size_t to, double qb);
+  void let_one_go(Steps& steps, const std::string& part, std::size_t first, std::size_t second);
 
   const Cell& cell_;
   Random& random_;
@@ -65,6 +67,7 @@ class RandomTasks {
   std::map<std::string, Start> starts_;
   std::map<std::string, Grasp> grasps_;                // parts of the scene
   std::map<std::string, std::size_t> held_;            // parts: arms that carry them
+  std::map<std::string, std::size_t> shared_with_;     // parts: other arms that hold them
   std::map<std::string, Eigen::Isometry3d> X_W_part_;  // parts of the scene
   std::uint64_t next_ = 1;
 };

@@ -9,13 +9,16 @@ After each kill
 - the part is at exactly one place: held from `attach` to `detach`, at its last place otherwise. This is stored before
   the next step begins,
 - nothing is done again: the job does not run.
+
+Also kills the server while both hands hold a bar. Both still hold it afterwards, and move only together.
 """
+import json
 import pathlib
 import sys
 import tempfile
 import time
 
-from killed_server import API, Server
+from killed_server import API, ROOT, Server
 
 PART = {"name": "part", "box": [0.04, 0.04, 0.08], "xyz": [-0.1, 0.35, 0.141]}
 ATTACH, DETACH = 4, 8
@@ -99,8 +102,51 @@ def check(program, at, folder, log):
         server.kill()
 
 
+def handover_with_both_hands():
+    """Returns the steps of the handover in config/, in which both hands hold the bar for a while."""
+    jobs = json.loads((ROOT / "config/pick_and_place_jobs.json").read_text())
+    steps = next(job["job"]["steps"] for job in jobs if job["job"]["id"] == "hand-over-there")
+    take = next(i for i, step in enumerate(steps) if step.get("attach", {}).get("link") == "right_panda_hand")
+    steps[take]["attach"]["shared"] = True
+    steps[take + 1:take + 1] = [{"wait_s": 60}, {"detach": {"object": "bar", "link": "left_panda_hand"}}]
+    return steps
+
+
+def check_both_hands(program, folder, log):
+    cell = "pick_and_place.json"
+    server = Server(program, folder, log, cell=cell)
+
+    def held():
+        return server.call("GET", API + "/scene")[1]["held"]
+
+    try:
+        status, answer = server.call("POST", API + "/jobs", {"id": "bar", "steps": handover_with_both_hands()})
+        assert status == 202, answer
+        wait_for("both hands", lambda: True if held() and "shared_with" in held()[0] else None)
+        time.sleep(0.2)  # until it is stored
+    finally:
+        server.kill()
+    server = Server(program, folder, log, cell=cell)
+    try:
+        [bar] = held()
+        assert bar["arm"] == "left", bar
+        assert bar["shared_with"] == [{"link": "right_panda_hand", "arm": "right"}], bar
+        assert server.call("GET", API + "/jobs/bar")[1]["state"] == "interrupted"
+        for path, body in (("/plan", {"arm": "left", "to": {"named": "ready"}}),
+                           ("/jobs", {"arm": "right", "move_to": {"named": "ready"}})):
+            status, answer = server.call("POST", API + path, body)
+            assert status == 409 and answer["type"].endswith("moves-alone"), answer
+        assert server.call("POST", API + "/scene/objects/bar/detach")[0] == 200
+        assert not held()
+    finally:
+        server.kill()
+
+
 def main():
     program = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
+        check_both_hands(program, pathlib.Path(folder) / "data", log)
+        print("killed while both hands held the bar", flush=True)
     for step in range(len(STEPS)):
         with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
             data = pathlib.Path(folder) / "data"

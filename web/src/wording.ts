@@ -79,6 +79,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'speed': return words.for_speed(w.arm === null ? words.the_cell : shown_name(w.arm));
     case 'io': return words.for_signal(shown_name(w.id ?? ''), shown_text(w.detail ?? ''));
     case 'action': return words.for_action(shown_text(w.detail ?? ''));
+    case 'holding': return shown_text(w.detail ?? '');
   }
 }
 
@@ -195,6 +196,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
     case 'io': return words.short_for(shown_name(first.id ?? ''));
+    case 'holding': return words.short_holding(shown_name(first.arm ?? ''));
     case 'action': return first.detail === undefined ? words.short_action : shown_text(first.detail);
   }
 }

@@ -34,6 +34,12 @@ describe('Held objects', () => {
     expect(places()).toEqual(['part in the scene', 'table in the scene']);
   });
 
+  it('are shown with each arm that holds them', () => {
+    const held = [{ ...held_json('part', 'left'), shared_with: [{ link: 'right_hand', arm: 'right' }] }];
+    take(snapshot(1), envelope('scene', 2, { ...scene_json(['table'], {}), held }));
+    expect([store.holds('left'), store.holds('right')]).toEqual([['part'], ['part']]);
+  });
+
   it('are known at past times', () => {
     take(snapshot(1), scene(2, ['table', 'part'], {}), scene(5, ['table'], { part: 'left' }), scene(9, ['table', 'part'], {}));
     expect(places(at(3))).toEqual(['part in the scene', 'table in the scene']);

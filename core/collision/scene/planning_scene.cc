@@ -89,7 +89,11 @@ bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held,
                   const CollisionBody& other) {
   const Attachment& attachment = (*scene.attachments)[held - scene.links_end];
   if (!other.carrier) return std::ranges::count(attachment.touch_objects, other.name) > 0;
-  if (hand_of(*scene.cell, attachment.link)[other.carrier->index()]) return true;
+  const auto is_in_hand = [&](LinkId link) -> bool {
+    return hand_of(*scene.cell, link)[other.carrier->index()];
+  };
+  if (is_in_hand(attachment.link)) return true;
+  if (std::ranges::any_of(attachment.others, is_in_hand, &Attachment::Other::link)) return true;
   if (!other.link) return false;
   return std::ranges::find(attachment.touch, *other.link) != attachment.touch.end() ||
          scene.cell->allowed.link_objects.contains({*other.link, attachment.object.name});

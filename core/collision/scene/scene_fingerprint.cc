@@ -101,6 +101,7 @@ std::vector<Fingerprint> fingerprint_of_arms(const Cell& cell, const SceneFinger
     for (const LinkId touch : attachment.touch) hash.add(touch.index());
     hash.add(attachment.touch_objects.size());
     for (const std::string& touch : attachment.touch_objects) hash.add(touch);
+    for (const Attachment::Other& other : attachment.others) hash.add(other.link.index());
     arm = hash.value();
   }
   return arms;

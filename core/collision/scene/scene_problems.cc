@@ -93,6 +93,9 @@ void find_attachment_problems(const Cell& cell, const std::vector<CollisionObjec
     };
     add(mesh_problem(held.object.shape, pointer + "/object/mesh"));
     add(carrier_problem(cell, held.link, pointer + "/link"));
+    for (std::size_t k = 0; k < held.others.size(); ++k) {
+      add(carrier_problem(cell, held.others[k].link, pointer + "/others/" + std::to_string(k)));
+    }
     for (std::size_t k = 0; k < held.touch.size(); ++k) {
       if (held.touch[k].index() < cell.links.size()) continue;
       add(carrier_problem(cell, held.touch[k], pointer + "/touch/" + std::to_string(k)));

@@ -85,6 +85,7 @@ std::optional<double> cost_behind_others(Transitions& state, JobId job) {
 std::string refusal_of(const State& state, const Step& step, std::size_t alternative) {
   if (!step.may_go_by(alternative)) return step.goal->ways[alternative].refusal.value_or("");
   const ArmId arm = step.alternatives[alternative]->arms().front();
+  if (is_in(arm, state.around.shared_holds)) return "it holds an object together with another arm";
   return state.arms.is_stopped(arm) ? "it is stopped" : "the arm will not be where the job begins";
 }
 

@@ -201,7 +201,7 @@ constexpr Gate kGates[] = {
     {plan, nullptr, EndedBy::planner, Blocks::check},
     // its arm has retreated and first lets another job pass
     {lets_pass, add_lets_pass, EndedBy::job, Blocks::start},
-    // one of its arms is stopped
+    // one of its arms is stopped, or holds an object together with an arm that does not move
     {stop, nullptr, EndedBy::client, Blocks::start, /*of_its_arm=*/true},
     // a signal does not have the value at which the job starts
     {signal, nullptr, EndedBy::client, Blocks::start, false, false, /*defers_start=*/true},

@@ -73,7 +73,9 @@ std::vector<Option> on_several_arms(const State& state, const Step& step) {
     if (!step.may_go_by(k)) continue;
     const Trajectory& trajectory = *alternatives[k];
     const When when = when_on(state, step, trajectory);
-    if (when == When::never || state.arms.is_stopped(arm_of(trajectory))) continue;
+    const ArmId arm = arm_of(trajectory);
+    if (when == When::never || state.arms.is_stopped(arm)) continue;
+    if (is_in(arm, state.around.shared_holds)) continue;
     const bool is_home = alternatives[k] == step.trajectory;
     options.insert(is_home ? options.begin() : options.end(),
                    Option{step.id.job, k, when == When::now});

@@ -47,6 +47,8 @@ bool goes_to_start(Transitions& state, const Step& head) {
   }
   state.jobs().set(head, with(head.approaches, &Approaches::tries, head.approaches.tries + 1));
   const std::vector<ArmId> arms = head.trajectory->arms();
+  const auto moves_alone = [&](ArmId arm) { return !is_in(arm, state->around.shared_holds); };
+  if (!std::ranges::all_of(arms, moves_alone)) return false;
   bool goes = false;
   for (ArmId arm : arms) {
     if (!state->arms.begins_elsewhere(*state->cell, *head.trajectory, arm)) continue;

@@ -90,7 +90,7 @@ bool has_been_there(const YieldsTried& tried, const Trajectory& way) {
 // helped an ended job.
 std::optional<YieldTrial> untried(const State& state, const Step& step, ArmId arm) {
   if (state.cell->scheduling.on_idle_blocker == OnIdleBlocker::report ||
-      state.arms.is_stopped(arm)) {
+      state.arms.is_stopped(arm) || is_in(arm, state.around.shared_holds)) {
     return std::nullopt;
   }
   if (!state.jobs.active().contains(step.job->errand.on_behalf_of)) return std::nullopt;

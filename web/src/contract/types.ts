@@ -784,7 +784,7 @@ export interface components {
         /** @description A reason to wait, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed" | "io" | "action";
+            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard" | "speed" | "io" | "action" | "holding";
             /** @description Id of the other job; for kind io the name of the signal */
             id: string | null;
             /** @description Name of the other arm */
@@ -1192,6 +1192,8 @@ export interface components {
             arm: string;
             /** @description Links and objects that the object may touch at present, besides the hand that holds it; absent if there are none */
             touch?: string[];
+            /** @description Other hands that hold the object, too: their arms and `arm` move only together; absent if there are none */
+            shared_with?: components["schemas"]["OtherHand"][];
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
@@ -1226,6 +1228,12 @@ export interface components {
         } | {
             secs: number;
             nsecs: number;
+        };
+        /** @description A further hand that holds an object. */
+        OtherHand: {
+            link: string;
+            /** @description Arm that moves the link */
+            arm: string;
         };
     };
     responses: never;

@@ -15,6 +15,7 @@ import { number_in_words } from '../wording';
 import { blank_form, edits_since, fault_of_name, fields_of, form_of, kKinds, kLongestName, object_of, with_edits, type Edits, type Kind } from './object_form';
 import { LetGo } from './let_go';
 import { shown_name } from '../names';
+import { holders_of } from '../state/facts';
 import { kText } from '../strings';
 
 const kWords = kText.scene;
@@ -30,11 +31,11 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
         ? <p class="hint">{kWords.hint}</p>
         : <AsOf app={app}>{kWords.past}</AsOf>}
       <ul class="objects" data-test="objects">
-        {objects.map((object) => <Entry key={object.name} object={object} arm={null} chosen={name} app={app} />)}
-        {held.map(({ object, arm }) => <Entry key={object.name} object={object} arm={arm} chosen={name} app={app} />)}
+        {objects.map((object) => <Entry key={object.name} object={object} arms={[]} chosen={name} app={app} />)}
+        {held.map((one) => <Entry key={one.object.name} object={one.object} arms={holders_of(one)} chosen={name} app={app} />)}
       </ul>
-      {chosen_held && <p class="hint" data-test="object-held">{kWords.held_sentence(shown_name(chosen_held.object.name), shown_name(chosen_held.arm), shown_name(chosen_held.link))}</p>}
-      {chosen_held && app.router.address.value.t_s === null && <LetGo object={chosen_held.object.name} arm={chosen_held.arm} app={app} />}
+      {chosen_held && <p class="hint" data-test="object-held">{kWords.held_sentence(shown_name(chosen_held.object.name), holders_of(chosen_held).map(shown_name), shown_name(chosen_held.link))}</p>}
+      {chosen_held && app.router.address.value.t_s === null && <LetGo object={chosen_held.object.name} arm={holders_of(chosen_held).join(', ')} app={app} />}
       {name !== null && !chosen && !chosen_held && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
       {chosen && app.router.address.value.t_s === null && <DragButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
@@ -44,15 +45,15 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
   );
 }
 
-/** One object of the list. `arm` is the arm that holds it, or null. */
-function Entry({ object, arm, chosen, app }: { object: SceneObject; arm: string | null; chosen: string | null; app: App }) {
-  const arms = [...app.store.arms.keys()];
+/** One object of the list. `arms` hold it. */
+function Entry({ object, arms, chosen, app }: { object: SceneObject; arms: string[]; chosen: string | null; app: App }) {
+  const all = [...app.store.arms.keys()];
   return (
     <li class={object.name === chosen ? 'selected' : ''}>
       <Link app={app} to={{ page: 'scene', name: object.name }} class="open" current={object.name === chosen}>
         <span class="ellipsis" title={shown_name(object.name)}>{shown_name(object.name)}</span>
         <span class="line">
-          {arm !== null && <span class="tag" data-test="held-by" style={{ '--arm': arm_color(arms, arm) }}>{kWords.held_by(shown_name(arm))}</span>}
+          {arms.map((arm) => <span key={arm} class="tag" data-test="held-by" style={{ '--arm': arm_color(all, arm) }}>{kWords.held_by(shown_name(arm))}</span>)}
           <span class="dim small">{size_in_words(object)}</span>
         </span>
       </Link>

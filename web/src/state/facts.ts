@@ -149,7 +149,7 @@ export class Facts {
 
   /** Returns the names of the objects that an arm holds. */
   holds(arm: string): string[] {
-    return this.held.filter((one) => one.arm === arm).map(({ object }) => object.name);
+    return this.held.filter((one) => holders_of(one).includes(arm)).map(({ object }) => object.name);
   }
 
   /** Returns the arm's next job that has not started, or null. */
@@ -225,6 +225,11 @@ export class Facts {
 }
 
 /** Returns the share of a job's steps that are done, with the progress of the present motion. */
+/** Returns the arms that hold the object. The first one carries it. */
+export function holders_of({ arm, shared_with = [] }: HeldObject): string[] {
+  return [arm, ...shared_with.map((other) => other.arm)];
+}
+
 function share_of_steps({ steps = [], step, result }: Job): number {
   const at = step ?? result?.step ?? steps.length;
   return steps.length === 0 ? 0 : (at + (steps[at]?.progress ?? 0)) / steps.length;
