@@ -32,6 +32,24 @@ TEST(Task, PutsDownWhatAnotherHandIsStillAt) {
   EXPECT_TRUE(cell.scene().scene()->touch().empty());
 }
 
+// y's earlier job must pass where x offers the part. x makes way, and comes back for y's hand.
+TEST(Task, ComesBackToWhereItGivesAnObject) {
+  CellDescription description = with_io();
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;
+  Tasks cell(description);
+  JobRequest through = slide("y", -1, 1, 4, "through");
+  through.terms.start_when = SignalCondition{"ready", true};
+  cell.submit(std::move(through));
+  cell.submit(task("hand over",
+                   {slide_to("x", 0.0), attach("x_ball"), slide_to("x", -0.26), slide_to("y", 0.0),
+                    attach("y_ball"), slide_to("x", -1.0), slide_to("y", -1.0)}));
+  while (cell.simulation->now() < at(6s)) cell.simulation->tick();
+  ASSERT_TRUE(cell.executive().signals().set("ready", true));
+  while (!cell.executive().all_ended() && cell.simulation->now() < at(60s)) cell.simulation->tick();
+  EXPECT_EQ(cell.job("through").state, JobState::succeeded) << cell.job("through").detail();
+  EXPECT_EQ(cell.job("hand over").state, JobState::succeeded) << cell.job("hand over").detail();
+}
+
 TEST(Task, KeepsTheArmThatGivesAnObject) {
   Tasks cell;
   JobRequest request =

@@ -116,7 +116,7 @@ FAULTS = {'server_store_test': [
     ('few reports tell motion from noise', MOVES, 'if (reports_ < kReports ||', 'if ((!FAULT && reports_ < kReports) ||'),
     ('noise makes the look-ahead report a pair each time', AHEAD, '>= kSameCondition;', '>= (FAULT ? Duration{} : kSameCondition);'),
     ('the look-ahead comes a period late', AHEAD, 'std::min(end, brakes_to + more);', 'std::min(end, FAULT ? brakes_to - more : brakes_to + more);'),
-    ('the look-ahead forgets the braking distance', AHEAD, 'highest * highest * to_seconds(premises', '(FAULT ? 0.0 : highest * highest) * to_seconds(premises'),
+    ('the look-ahead forgets the braking distance', AHEAD, 'brakes * to_seconds(premises', '(FAULT ? 0.0 : brakes) * to_seconds(premises'),
     ('the look-ahead forgets the reaction time', AHEAD, 'from_seconds(highest * to_seconds(reaction) +', 'from_seconds((FAULT ? 0.0 : highest) * to_seconds(reaction) +'),
     ('the look-ahead forgets the delay of late reports', AHEAD, 'controller.reaction + 2 * late;', 'controller.reaction + (FAULT ? 0 : 2) * late;'),
     ('a certificate counts beyond the authority', AHEAD, 'keep = premises.keeps_authority(arm) && premises.keeps_authority(other);', 'keep = FAULT || (premises.keeps_authority(arm) && premises.keeps_authority(other));'),

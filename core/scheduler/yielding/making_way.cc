@@ -65,14 +65,17 @@ JobId add_own(Transitions& state, YieldMove told, Submit job, std::optional<JobI
 
 void send_aside(Transitions& state, const YieldTrial& move) {
   const Step* next = move.before ? &state->jobs.at(*move.before) : nullptr;
-  const bool returns = next != nullptr && !next->goal &&
-                       !state->arms.begins_elsewhere(*state->cell, *next->trajectory, move.arm);
+  // Actions of its task are done where the arm is now.
+  const bool acts_here = next != nullptr && next->job->awaits_actions;
+  const bool returns =
+      acts_here || (next != nullptr && !next->goal &&
+                    !state->arms.begins_elsewhere(*state->cell, *next->trajectory, move.arm));
   YieldMove told{.arm = move.arm, .blocked_job = move.blocked_job, .in_ring = next != nullptr};
   const JobId goes = add_own(state, told, {.trajectory = move.way}, move.before);
   if (!told.in_ring) state.arms().ways_back().retreat(move.arm, *move.way);
   told.returns = returns;
   if (returns) (void)add_own(state, told, {.trajectory = retraced(*move.way)}, move.before, goes);
-  if (next == nullptr || !next->goal) return;
+  if (next == nullptr || !next->goal || returns) return;
   // A goal begins wherever the arm stands by then.
   state.let_pass(*next, move.blocked_job);
 }
