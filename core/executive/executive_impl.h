@@ -36,7 +36,7 @@ class Executive::Impl {
             StopCategory category = StopCategory::brake);
   std::vector<ArmId> resume(std::vector<ArmId> arms);
   void set_speed(std::optional<ArmId> arm, double share);
-  // What arms hold may have changed.
+  // Limits the speed of arms by what they hold now.
   void set_brakes();
   void pass_on_speed();
   [[nodiscard]] TimePoint settled_until() const;

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// What an arm carries, as its payload (PayloadDescription) counts it.
+// Functions that count what an arm carries as its payload (PayloadDescription).
 
 // Returns the mass of the objects that the arm holds (kg), each times the lever of its center of
 // mass if that is beyond PayloadDescription::lever_m. Objects that several arms hold count in full

@@ -14,7 +14,8 @@
 namespace armloom {
 
 // Random jobs with steps: each arm has a part, which it picks, carries, places and hands over, also
-// with both hands at the part for a while. All parts but the first are heavy. The steps also wait, set outputs and wait for an input.
+// with both hands at the part for a while. All parts but the first are heavy. The steps also wait,
+// set outputs and wait for an input.
 class RandomTasks {
  public:
   // Adds what the tasks use: signals, and what the arms can carry.

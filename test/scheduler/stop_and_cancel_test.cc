@@ -203,11 +203,10 @@ TEST(Stop, CancelDuringTheBrakeWins) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-TEST(Stop, CancelSurvivesASceneConflictDuringTheBrake) {
+TEST(Stop, LeavesACanceledJobCanceled) {
   Running bench(1);
   bench.step(Cancel{bench.jobs[0]}, at(500ms));
-  bench.step(SceneChanged{{ArmId{0}}}, at(510ms));
-  if (bench.question) bench.answer_conflict(at(511ms), Conflict::With::scene);
+  bench.step(Stop{{ArmId{0}}, "operator"}, at(510ms));
   bench.stopped(bench.jobs[0], 600ms, at(700ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
