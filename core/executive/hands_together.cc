@@ -122,7 +122,7 @@ std::optional<Apart> first_apart(const Trajectory& motion, const Chain& chain, L
 
 Problem problem_of(const Cell& cell, const std::string& object, LinkId hand, LinkId first,
                    const Apart& apart) {
-  char text[256];
+  char text[320];
   if (apart.is_too_long) {
     std::snprintf(text, sizeof text,
                   ": the motion is too long to be checked: split it at %.6g s, or make it slower",
@@ -130,18 +130,31 @@ Problem problem_of(const Cell& cell, const std::string& object, LinkId hand, Lin
   } else {
     std::snprintf(
         text, sizeof text,
-        ": at %.6g s they are %.2g mm and %.2g rad from their pose relative to each other at "
-        "the start; %.2g mm and %.2g rad are allowed: move them alike, or add waypoints",
+        ": at %.6g s they are %.4g mm and %.4g rad from the pose relative to each other in which "
+        "they took it; less than %.4g mm and %.4g rad are allowed: move them alike, or let it go "
+        "with POST /scene/objects/",
         to_seconds(apart.at), 1e3 * apart.off_m, apart.off_rad, 1e3 * kHandsApart_m / 2,
         kHandsApart_rad / 2);
   }
   return {ProblemKind::invalid, "hands-apart", "/trajectory",
           cell.link(first).name + " and " + cell.link(hand).name + " hold " + object + " together" +
-              text,
+              text + (apart.is_too_long ? "" : object + "/detach"),
           to_seconds(apart.at)};
 }
 
 }  // namespace
+
+HandsTogether::HandsTogether(const Cell& cell, const std::vector<Attachment>& held) : cell_(cell) {
+  for (const Attachment& one : held) {
+    if (one.others.empty()) continue;
+    Together& together = by_object_[one.object.name];
+    together.hands.push_back(one.link);
+    for (const Attachment::Other& other : one.others) {
+      together.hands.push_back(other.link);
+      together.X_FH.push_back(one.X_LO * other.X_LO.inverse(Eigen::Isometry));
+    }
+  }
+}
 
 void HandsTogether::find_apart(const PreparedMotion& motion, const HandsOf& hands, Configuration at,
                                Problems& problems) {
@@ -190,7 +203,8 @@ void JobIntake::find_hands_apart(const JobRequest& request, const PreparedMotion
     auto alone = find_moves_alone(*cell_, *ahead.hands, way->arms(), place);
     if (alone) return problems.push_back(*std::move(alone));
   }
-  HandsTogether(*cell_).find_apart(motion, *ahead.hands, ahead.rest, problems);
+  HandsTogether(*cell_, scene_()->attachments())
+      .find_apart(motion, *ahead.hands, ahead.rest, problems);
 }
 
 }  // namespace armloom

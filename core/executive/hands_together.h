@@ -22,14 +22,15 @@ inline constexpr double kHandsApart_rad = 0.01;
                                                       const std::string& pointer);
 
 // Checks the motions of one job, in their order: hands that hold one object together keep their
-// pose relative to each other. The pose counts that they have when the first of these motions
-// begins.
+// pose relative to each other. The pose counts in which they took the object; if they take it in
+// this job, the pose in which the first motion with it begins.
 //
 // Samples each motion. At the samples, half the tolerance is allowed. Between samples, at most the
 // other half is added: the samples are as dense as bounds on joint speeds and accelerations ask.
 class HandsTogether {
  public:
-  explicit HandsTogether(const Cell& cell) : cell_(cell) {}
+  // `held`: at present.
+  HandsTogether(const Cell& cell, const std::vector<Attachment>& held);
 
   // Adds the problem "hands-apart" at "/trajectory" if the hands leave their relative pose.
   // Precondition: the motion moves all arms of a hold, or none. `at`: positions of all other

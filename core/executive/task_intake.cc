@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "core/base/add_below.h"
@@ -180,12 +179,17 @@ class StepCheck {
   }
   // The lever of the mass shows only when the hand is at the object.
   void look_at_mass(const std::string& object, LinkId link) {
-    const auto known = masses_kg_.find(object);
-    if (known == masses_kg_.end()) return;
-    Attachment held{.object = {}, .link = link, .touch = {}};
-    held.object.name = object;
-    held.object.mass.kg = known->second;
-    auto overload = find_overload(cell_, *cell_.link(link).arm, std::span(&held, 1));
+    if (!masses_kg_.contains(object)) return;
+    const ArmId arm = *cell_.link(link).arm;
+    std::vector<Attachment> held;
+    for (const auto& [name, kg] : masses_kg_) {
+      const auto arms = arms_of(cell_, hands_at(name));
+      if (name != object && std::ranges::count(arms, arm) == 0) continue;
+      Attachment& one = held.emplace_back(Attachment{.object = {}, .link = link, .touch = {}});
+      one.object.name = name;
+      one.object.mass.kg = kg;
+    }
+    auto overload = find_overload(cell_, arm, held);
     if (!overload) return;
     overload->pointer = place_of_step(at_) + "/attach/object";
     problems_.push_back(*std::move(overload));
@@ -223,7 +227,7 @@ class StepCheck {
       if (std::any_of(after, steps_.end(), moves)) continue;
       add("no-motion-after", member,
           "no step after this one moves " + cell_.arm(arm).name +
-              ": add the motion by which it leaves",
+              ": add a motion of this arm, so that the job keeps the arm until this step is done",
           value);
     }
   }
@@ -282,7 +286,7 @@ std::vector<PreparedJob::PreparedStep> JobIntake::read_steps(const JobRequest& r
   std::vector<PreparedJob::PreparedStep> steps;
   bool acts_before = false, is_first = true;
   const TouchOf* before = nullptr;
-  HandsTogether together(*cell_);
+  HandsTogether together(*cell_, scene_()->attachments());
   for (std::size_t i = 0; i < request.steps.size(); ++i) {
     const StepRequest& asked = request.steps[i];
     PreparedJob::PreparedStep& step = steps.emplace_back();

@@ -52,13 +52,27 @@ std::optional<Problem> find_overload(const Cell& cell, ArmId arm,
                        "\"mass_kg\" out of the object",
                    heavy->object.mass.kg};
   }
+  const double max_kg = carrier.payload->max_kg * (1.0 + kRounding);
   const double counted_kg = counted_mass(cell, arm, held);
-  if (counted_kg <= carrier.payload->max_kg * (1.0 + kRounding)) return std::nullopt;
+  if (counted_kg <= max_kg) return std::nullopt;
+  double mass_kg = 0.0;
+  for (const Attachment& one : held) {
+    if (pose_in_hand(cell, one, arm) != nullptr) mass_kg += one.object.mass.kg;
+  }
   char text[200];
-  std::snprintf(text, sizeof text,
-                " would hold %.4g kg (masses beyond %.4g m from the hand count more), its payload "
-                "is %.4g kg: hold the object nearer to its center of mass, or use a stronger arm",
-                counted_kg, carrier.payload->lever_m, carrier.payload->max_kg);
+  if (mass_kg > max_kg) {
+    std::snprintf(
+        text, sizeof text,
+        " would hold %.4g kg, its payload is %.4g kg: use a stronger arm or a lighter object",
+        mass_kg, carrier.payload->max_kg);
+  } else {
+    std::snprintf(
+        text, sizeof text,
+        " would hold %.4g kg, which count as %.4g kg because the center of mass is more "
+        "than %.4g m from the hand; its payload is %.4g kg: hold the object nearer to its "
+        "center of mass",
+        mass_kg, counted_kg, carrier.payload->lever_m, carrier.payload->max_kg);
+  }
   return Problem{ProblemKind::conflict, "too-heavy", "", "arm " + carrier.name + text, counted_kg};
 }
 

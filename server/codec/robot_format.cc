@@ -122,10 +122,11 @@ FormatPtr<PayloadDescription> payload_format() {
   return object<Payload>({
       required("max_kg", &Payload::max_kg, number(Payload::mass_range),
                "Largest mass that the arm may hold, in kilograms."),
-      field("brake_at_max", &Payload::brake_at_max, number(Payload::brake_range),
-            "Share of the limits of braking and acceleration that the arm keeps with this mass. "
-            "With less mass it keeps more, in proportion. The arm moves at the square root of its "
-            "share, so that it stops within the same distance as with empty hands."),
+      required(
+          "brake_at_max", &Payload::brake_at_max, number(Payload::brake_range),
+          "Share of the limits of braking and acceleration that the arm keeps with this mass. "
+          "With less mass it keeps more, in proportion. The arm moves at the square root of its "
+          "share, so that it stops within the same distance as with empty hands."),
       field("lever_m", &Payload::lever_m, number(Payload::lever_range),
             "How far the center of mass may be from the origin of the link that carries the "
             "object, in meters. A mass farther away counts as more, in proportion."),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/executive/live_scene.h"
+#include "core/model/payload.h"
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
 #include "server/durable/damage.h"
@@ -268,11 +269,22 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     // it.
     keeper.store().change({{.name = one.name}}, [](bool) {});
   }
+  bool is_overloaded = false;
+  for (std::uint32_t arm = 0; arm < cell.arms.size(); ++arm) {
+    const auto overload = find_overload(cell, ArmId{arm}, executive.scene().scene()->attachments());
+    if (!overload) continue;
+    is_overloaded = true;
+    executive.alert({Alert::Level::error, overload->detail +
+                                              "; it held this before the server was restarted: let "
+                                              "it go with POST /scene/objects/{name}/detach"});
+  }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());
   } else if (!not_put_back.empty()) {
     stop_all(executive, "the scene could not be restored after the server was restarted");
+  } else if (is_overloaded) {
+    stop_all(executive, "an arm holds more than the cell file permits");
   } else if (!not_set.empty()) {
     stop_all(executive, "a speed override could not be restored after the server was restarted");
   } else if (!knows_stops_) {

@@ -186,6 +186,20 @@ TEST(SharedHold, RefusesWhatWouldTearTheObject) {
   }
 }
 
+// Each job by itself is within the tolerance.
+TEST(SharedHold, SeesHandsThatPartALittleWithEachJob) {
+  Cell2 cell;
+  ASSERT_TRUE(cell.executive().submit(
+      with_steps("first", with(take_both(), {carry_step({0.0, 0.0}, {0.0, 0.5}, 0.0009)}))));
+  while (!cell.executive().all_ended() && cell.now() < at(60s)) cell.run_until(cell.now() + 100ms);
+  ASSERT_EQ(cell.hands().size(), 2U);
+  JobRequest second{
+      .key = "second", .name = "", .trajectory = carry({0.0, 0.5}, {0.0, 0.0}, 0.0018)};
+  second.trajectory.points.front().positions[2] += 0.0009;
+  const Problem problem = cell.refused(std::move(second));
+  EXPECT_EQ(problem.slug, "hands-apart") << problem.detail;
+}
+
 // At most half the tolerance is seen at samples; between them the hands part by more.
 TEST(SharedHold, SeesHandsThatPartBetweenTwoWaypoints) {
   Cell2 cell;
