@@ -203,10 +203,10 @@ TEST(Stop, CancelDuringTheBrakeWins) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-TEST(Stop, LeavesACanceledJobCanceled) {
+TEST(Stop, CancelSurvivesARequestForANewPathDuringTheBrake) {
   Running bench(1);
   bench.step(Cancel{bench.jobs[0]}, at(500ms));
-  bench.step(Stop{{ArmId{0}}, "operator"}, at(510ms));
+  bench.step(Replan{bench.jobs[0]}, at(510ms));
   bench.stopped(bench.jobs[0], 600ms, at(700ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
