@@ -139,7 +139,10 @@ class FaultRun {
 
   void submit() {
     next_job_ = now() + from_seconds(random_.uniform(0.1, 1.6));
-    if (witness_->open.size() >= plan_.open_max) return;
+    if (witness_->open.size() >= plan_.open_max) {
+      if (tasks_) tasks_->tidy_up();  // jobs may wait for an object that two hands hold
+      return;
+    }
     std::optional<JobRequest> task;
     if (tasks_) tasks_->set_input();
     if (tasks_ && random_.chance(0.2)) tasks_->tidy_up();
