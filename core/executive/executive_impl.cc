@@ -315,6 +315,9 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   publisher_.scene_has_changed(clock_.now);
   set_brakes();
   if (is_within_reach) step(SceneChanged{arms, shared_holds(*cell_, hands_of(*scene_.scene()))});
+  // A client may have moved an object at which an arm was: the contact does not go with it.
+  const bool is_edit = scene_.version() != scene_.version_of_change();
+  if (is_edit) clients_.tasks.actions().clear_left_touch(all_arms(*cell_));
 }
 
 void Executive::Impl::signal_changed(SignalId signal) {

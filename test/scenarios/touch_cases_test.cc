@@ -22,6 +22,19 @@ TEST(Task, LeavesThePartInALaterJob) {
   EXPECT_TRUE(cell.scene().scene()->touch().empty());
 }
 
+TEST(Task, MayNotTouchAPartThatAClientHasMovedMeanwhile) {
+  Tasks cell;
+  cell.submit(task("place", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", 0.5), detach(),
+                             slide_to("x", 0.495)}));
+  cell.run_to_the_end();
+  ASSERT_EQ(cell.scene().scene()->touch().size(), 1U) << "the hand is still at the part";
+  ASSERT_TRUE(cell.scene().replace(part_at(-0.3)));
+  EXPECT_TRUE(cell.scene().scene()->touch().empty());
+  cell.submit(move_to("x", -1.0, "through"));
+  cell.run_to_the_end();
+  EXPECT_NE(cell.job("through").state, JobState::succeeded) << "the part is in its way";
+}
+
 TEST(Task, PutsDownWhatAnotherHandIsStillAt) {
   Tasks cell;
   cell.submit(task("hand over", {slide_to("x", 0.0), attach("x_ball"), slide_to("x", -0.26),
