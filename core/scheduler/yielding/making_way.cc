@@ -45,6 +45,18 @@ void pass_on(Transitions& state, const ArmQueues::Queue& queue, std::vector<JobI
   }
 }
 
+// Returns true if an earlier motion of the task has brought the arm to where the actions before the
+// motion `next` are done.
+bool acts_here(Transitions& state, const Step& next, ArmId arm) {
+  if (!next.job->awaits_actions || !next.job->task) return false;
+  for (auto id = next.job->task->value(); id < next.id.job.value(); ++id) {
+    const Step* before = state->jobs.find(JobId{id});
+    if (before == nullptr || before->job->task != next.job->task) continue;
+    if (std::ranges::count(before->trajectory->arms(), arm) > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 JobId add_own(Transitions& state, YieldMove told, Submit job, std::optional<JobId> before,
@@ -65,11 +77,10 @@ JobId add_own(Transitions& state, YieldMove told, Submit job, std::optional<JobI
 
 void send_aside(Transitions& state, const YieldTrial& move) {
   const Step* next = move.before ? &state->jobs.at(*move.before) : nullptr;
-  // Actions of its task are done where the arm is now.
-  const bool acts_here = next != nullptr && next->job->awaits_actions;
   const bool returns =
-      acts_here || (next != nullptr && !next->goal &&
-                    !state->arms.begins_elsewhere(*state->cell, *next->trajectory, move.arm));
+      next != nullptr &&
+      (acts_here(state, *next, move.arm) ||
+       (!next->goal && !state->arms.begins_elsewhere(*state->cell, *next->trajectory, move.arm)));
   YieldMove told{.arm = move.arm, .blocked_job = move.blocked_job, .in_ring = next != nullptr};
   const JobId goes = add_own(state, told, {.trajectory = move.way}, move.before);
   if (!told.in_ring) state.arms().ways_back().retreat(move.arm, *move.way);
