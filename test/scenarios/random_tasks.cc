@@ -74,6 +74,7 @@ void RandomTasks::place_parts() {
       }
       part.X_WO.translation() += beside;
       part.X_WO.linear().setIdentity();
+      if (is_at_part(part.name, part.X_WO)) continue;
       if (!executive_().scene().add(part)) continue;  // too close to an arm
       parts_.insert(part.name);
       X_W_part_[part.name] = part.X_WO;
@@ -114,6 +115,14 @@ std::vector<std::string> RandomTasks::see(const SceneView& scene) {
 
 void RandomTasks::set_input() { (void)executive_().signals().set("ready", random_.chance(0.7)); }
 
+// Returns true if another part of the scene is too close to this place.
+bool RandomTasks::is_at_part(const std::string& part, const Eigen::Isometry3d& X_WO) const {
+  return std::ranges::any_of(X_W_part_, [&](const auto& other) {
+    const Eigen::Vector3d apart = other.second.translation() - X_WO.translation();
+    return other.first != part && apart.norm() < 2 * kPart_m + 0.03;
+  });
+}
+
 void RandomTasks::tidy_up() {
   // The server knows where an arm without a link was; the operator of a cell sees where it is.
   const auto may_move = [](const ArmView& arm) {
@@ -123,11 +132,7 @@ void RandomTasks::tidy_up() {
   for (const auto& [part, start] : starts_) {
     if (held_.contains(part) && !executive_().detach(part)) continue;
     held_.erase(part);
-    const auto is_there = [&](const auto& other) {
-      const Eigen::Vector3d apart = other.second.translation() - start.object.X_WO.translation();
-      return other.first != part && apart.norm() < 2 * kPart_m + 0.03;
-    };
-    if (std::ranges::any_of(X_W_part_, is_there)) continue;     // another part is there
+    if (is_at_part(part, start.object.X_WO)) continue;
     if (!executive_().scene().replace(start.object)) continue;  // an arm is there
     X_W_part_[part] = start.object.X_WO;
     grasps_[part] = start.grasp;

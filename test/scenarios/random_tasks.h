@@ -47,6 +47,7 @@ class RandomTasks {
   [[nodiscard]] StepRequest move(std::size_t arm, std::vector<double> q) const;
   [[nodiscard]] StepRequest move_anywhere(std::size_t arm);
   [[nodiscard]] StepRequest attach(const std::string& part, std::size_t arm) const;
+  [[nodiscard]] bool is_at_part(const std::string& part, const Eigen::Isometry3d& X_WO) const;
   void add_pause(Steps& steps);
   void place(Steps& steps, const std::string& part, std::size_t arm);
   void pick(Steps& steps, const std::string& part, std::size_t arm);
