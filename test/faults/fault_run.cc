@@ -18,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kOperator = 100ms;    // between two looks of the operator
+constexpr Duration kTidiesUp = 60s;      // after the last submission
 constexpr Duration kReacts = 2s;         // of the operator
 constexpr Duration kWaits = 5s;          // for an arm in which the fault can begin
 constexpr Duration kRemovesAfter = 15s;  // a fault that stops no arm
@@ -81,6 +82,11 @@ class FaultRun {
     while (now() < end && !is_done()) {
       const TimePoint until = std::min(now() + kOperator, end);
       if (now() < at(plan_.jobs_for) && now() >= next_job_) submit();
+      // Jobs may wait for a part that two hands hold.
+      if (now() >= at(plan_.jobs_for) && now() >= next_job_ && tasks_) {
+        next_job_ = now() + kTidiesUp;
+        tasks_->tidy_up();
+      }
       if (plan_.faulty && now() >= begins_at_) begin_fault();
       operate();
       while (now() < until) {
