@@ -1,4 +1,4 @@
-// Answers queries of clients that change nothing: checks of jobs, plans to goals.
+// Answers requests that change nothing: checks of jobs, and plans to goals.
 #include <algorithm>
 #include <cstdio>
 #include <limits>

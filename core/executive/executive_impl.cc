@@ -315,7 +315,7 @@ void Executive::Impl::scene_has_changed(ClearanceQuery& query) {
   publisher_.scene_has_changed(clock_.now);
   set_brakes();
   if (is_within_reach) step(SceneChanged{arms, shared_holds(*cell_, hands_of(*scene_.scene()))});
-  // A client may have moved an object at which an arm was: the contact does not go with it.
+  // If a client moves an object, the contact that ended steps left at it ends.
   const bool is_edit = scene_.version() != scene_.version_of_change();
   if (is_edit) clients_.tasks.actions().clear_left_touch(all_arms(*cell_));
 }

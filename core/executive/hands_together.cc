@@ -131,7 +131,7 @@ Problem problem_of(const Cell& cell, const std::string& object, LinkId hand, Lin
     std::snprintf(
         text, sizeof text,
         ": at %.6g s they are %.4g mm and %.4g rad from the pose relative to each other in which "
-        "they took it; less than %.4g mm and %.4g rad are allowed: move them alike, or let it go "
+        "they took it; at most %.4g mm and %.4g rad are allowed: move them alike, or let it go "
         "with POST /scene/objects/",
         to_seconds(apart.at), 1e3 * apart.off_m, apart.off_rad, 1e3 * kHandsApart_m / 2,
         kHandsApart_rad / 2);

@@ -29,9 +29,7 @@ struct PresentObjects {
 // - "unknown-object", "unknown-link", "link-not-of-arm", "unknown-io", "wrong-type"
 // - "not-held": an object is detached, or shared, that no arm holds at that step
 // - "held-twice": an object is attached to a hand that holds it already
-// - "no-motion-after": an arm that holds the object of an attach or detach has no motion after it
-// in
-//   the task
+// - "no-motion-after": an arm that holds the object of an attach or detach has no later motion
 // - "moves-alone": a motion of one of several arms that hold an object together
 // - "ends-with-wait": the last step waits
 // - "no-motion": no step moves an arm

@@ -22,7 +22,7 @@ struct SharedHold {
                                                const std::vector<SharedHold>& holds);
 // Returns true if the arm may not move alone.
 [[nodiscard]] bool is_in(ArmId arm, const std::vector<SharedHold>& holds);
-// "left, right hold part together, so they move only together: send ..."
+// Returns why such a motion is refused or waits, with the remedy.
 [[nodiscard]] std::string text_of(const SharedHold& hold, const Cell& cell);
 
 }  // namespace armloom

@@ -644,7 +644,7 @@ export const kText = {
   },
 
   io: {
-    none: 'This cell has no inputs or outputs. The cell file defines them in "io".',
+    none: 'This cell has no inputs or outputs. To add some, define "io" in the cell file.',
     hint: 'Inputs and outputs as seen from the server. Signals of a device show what the device reported last.',
     past: 'Past signals cannot be set.',
     simulated: (direction: string) => `${direction}, simulated`,
