@@ -137,8 +137,7 @@ std::string speed_text(const Schema& speed, const Present&) {
   std::string text = "speed override of " + (arm.empty() ? "the cell" : "arm " + arm) + ": " +
                      override_text(number_at(speed, "speed_override"));
   const auto effective = number_at(speed, "effective_speed_override");
-  if (effective)
-    text += "; with the cell's and what its payload leaves: " + override_text(effective);
+  if (effective) text += "; the arm moves at " + override_text(effective);
   return text + '\n';
 }
 

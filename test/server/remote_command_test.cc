@@ -47,7 +47,7 @@ TEST_F(RemoteCommand, SetsAndPrintsTheSpeedOverride) {
   const std::uint16_t port = server.port();
   EXPECT_EQ(ask(port, "speed 0.5").out, "speed override of the cell: 50 %\n");
   EXPECT_EQ(ask(port, "speed 0.25 left").out,
-            "speed override of arm left: 25 %; with the cell's: 12.5 %\n");
+            "speed override of arm left: 25 %; the arm moves at 12.5 %\n");
   EXPECT_EQ(ask(port, "speed").out, "speed override of the cell: 50 %\n");
   EXPECT_EQ(json::parse(ask(port, "speed --arm right --json").out)["effective_speed_override"],
             0.5);
