@@ -15,7 +15,6 @@ namespace armloom {
 ArmRests::ArmRests(const Cell& cell, Configuration rest)
     : rest_(std::move(rest)),
       stopped_(cell.arms.size()),
-      may_meet_(cell.arms.size()),
       came_by_(cell.arms.size()),
       places_at_(cell.arms.size()) {
   if (rest_.size() != static_cast<Eigen::Index>(cell.joints.size())) {
@@ -45,14 +44,22 @@ void ArmRests::locate(const Cell& cell, ArmId arm, const Eigen::VectorXd& positi
   ++changes_;
 }
 
+void ArmRests::set_unlocated(ArmId arm, std::vector<ArmId> may_meet) {
+  (void)set_located(arm);
+  if (!may_meet.empty()) may_meet_.emplace(arm, std::move(may_meet));
+  ++changes_;
+}
+
 std::vector<ArmId> ArmRests::set_located(ArmId arm) {
-  if (is_unlocated(arm)) ++changes_;
-  return std::exchange(may_meet_[arm.index()], {});
+  auto known = may_meet_.extract(arm);
+  if (known.empty()) return {};
+  ++changes_;
+  return std::move(known.mapped());
 }
 
 std::optional<ArmId> ArmRests::unlocated_beside(ArmId arm) const {
-  for (std::uint32_t other = 0; other < may_meet_.size(); ++other) {
-    if (std::ranges::count(may_meet_[other], arm) > 0) return ArmId{other};
+  for (const auto& [other, may_meet] : may_meet_) {
+    if (std::ranges::count(may_meet, arm) > 0) return other;
   }
   return std::nullopt;
 }

@@ -46,13 +46,10 @@ class ArmRests {
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
   // Stores that the arm may be anywhere until set_located(), and which other arms it could meet.
-  void set_unlocated(ArmId arm, std::vector<ArmId> may_meet) {
-    may_meet_[arm.index()] = std::move(may_meet);
-    ++changes_;
-  }
+  void set_unlocated(ArmId arm, std::vector<ArmId> may_meet);
   // Returns the arms that it could have met.
   std::vector<ArmId> set_located(ArmId arm);
-  [[nodiscard]] bool is_unlocated(ArmId arm) const { return !may_meet_[arm.index()].empty(); }
+  [[nodiscard]] bool is_unlocated(ArmId arm) const { return may_meet_.contains(arm); }
   // Returns an arm that may be anywhere and that this arm could meet; nullopt if there is none.
   [[nodiscard]] std::optional<ArmId> unlocated_beside(ArmId arm) const;
 
@@ -98,7 +95,7 @@ class ArmRests {
   Version changes_ = 0;
   Configuration rest_;
   std::vector<std::optional<StopOfArm>> stopped_;  // per arm
-  std::vector<std::vector<ArmId>> may_meet_;       // per arm; only of unlocated arms
+  std::map<ArmId, std::vector<ArmId>> may_meet_;   // of unlocated arms that could meet others
   std::vector<TrajectoryPtr> came_by_;
   WaysBack ways_back_;
   Places places_;

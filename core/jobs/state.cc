@@ -15,6 +15,7 @@ static_assert(!std::is_assignable_v<State&, State> && !std::is_assignable_v<JobB
               !std::is_assignable_v<ArmRests&, ArmRests> && !std::is_assignable_v<Lanes&, Lanes>);
 
 std::vector<Effect> StateWriter::take_effects() {
+  if (added_.empty() && !state_.jobs.updates_.has_changed()) return std::exchange(effects_, {});
   std::vector<Effect> result;
   const std::vector<YieldMove> added = std::exchange(added_, {});
   for (const YieldMove& move : added) result.emplace_back(move);

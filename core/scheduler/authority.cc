@@ -102,17 +102,20 @@ void extend_authority(Transitions& state, StepId moved) {
 void see_pauses(Transitions& state, const Step& step, Duration progress_before) {
   const auto* moving = step.in<Moving>();
   if (moving == nullptr || !moving->is_under_way) return;
-  Moving next = *moving;
   const Duration limit = state->graph.limit(step.id);
   const bool is_held = limit < step.trajectory->duration();
-  if (is_held && step.progress + state->graph.horizon(step.id) >= limit) {
+  const bool nears_limit = is_held && step.progress + state->graph.horizon(step.id) >= limit;
+  const bool goes_on = step.progress > progress_before;
+  if (goes_on && !nears_limit && !moving->pause) return;
+  Moving next = *moving;
+  if (nears_limit) {
     next.overrun_at = overrun_after(state, step);
     next.moved_at = state->now;
     next.goes_since = state->now;
     next.goes_from = step.progress;
   }
   const bool is_at_limit = is_held && step.progress + kAtLimit >= limit;
-  if (step.progress > progress_before) {
+  if (goes_on) {
     if (next.pause) state.jobs().set_waits(step, {});
     next.pause.reset();
   } else if ((is_at_limit || speed_wait(state, step)) && !next.pause) {

@@ -109,13 +109,13 @@ void fail_impossible_starts(Transitions& state) {
     const auto& queue = state->jobs.queues()[ArmId{arm}];
     if (queue.empty()) continue;
     const Step& head = state->jobs.at(queue.front());
-    if (!head.is_waiting() || head.has_started() || !is_at_head(state, head)) continue;
+    if (!head.is_waiting() || head.has_started()) continue;
     if (head.goal) continue;  // its way begins where the arm stands
-    if (any_closed(state, head, defers_start)) continue;
+    auto mismatch = state->arms.start_mismatch(*state->cell, *head.trajectory);
+    if (!mismatch) continue;  // asked first, because most jobs end here
+    if (!is_at_head(state, head) || any_closed(state, head, defers_start)) continue;
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
     if (head.job->is_held_over && state->arms.stop_of(head)) continue;
-    auto mismatch = state->arms.start_mismatch(*state->cell, *head.trajectory);
-    if (!mismatch) continue;
     unchanged = 0;
     if (begins_on_other_arm(state, head) || goes_to_start(state, head)) continue;
     if (head.approaches.refusal) {
