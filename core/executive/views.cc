@@ -55,13 +55,18 @@ std::optional<std::string> opens(const Wait& wait, bool in_vain, const Cell& cel
 }
 
 // Hint on how to unblock a job that waits for an object or a fixed link.
-std::string opens(const Proximity& proximity, const Cell& cell) {
+std::string opens(const Proximity& proximity, Duration own_time, const Cell& cell) {
   const auto link_a = cell.find_link(proximity.body_a), link = cell.find_link(proximity.body_b);
   if (link_a && link && cell.is_own(*link_a, *link)) {
     return "both links are of the same arm: change the trajectory to unblock this job";
   }
-  return proximity.body_b + " does not move: change the trajectory" +
-         (link ? "" : ", or move or delete the object,") + " to unblock this job";
+  const std::string text = proximity.body_b + " does not move: change the trajectory" +
+                           (link ? "" : ", or move or delete the object,") + " to unblock this job";
+  if (own_time > Duration{} || (link_a && link)) return text;
+  // For example after a restart, which ends the contact that steps allowed.
+  if (!link_a) return text + "; if " + proximity.body_a + " rests there, begin with a detach step";
+  return text + "; if the hand is at " + proximity.body_b +
+         ", begin with an attach and a detach step";
 }
 
 // "a -> b -> a: each waits for the next one, so none can move", and how to avoid it.
@@ -90,7 +95,8 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
   if (wait.arm) view.arm = cell.arm(*wait.arm).name;
   std::optional<std::string> opening;
   if (wait.kind == Wait::Kind::arm && wait.arm) opening = opens(wait, in_vain, cell, names);
-  if (wait.kind == Wait::Kind::object && wait.proximity) opening = opens(*wait.proximity, cell);
+  if (wait.kind == Wait::Kind::object && wait.proximity)
+    opening = opens(*wait.proximity, wait.own_time, cell);
   if (wait.kind == Wait::Kind::predecessor && wait.proximity) {
     opening = "this job would end in the path of " + view.job + ", so that job goes first";
   }

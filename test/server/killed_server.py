@@ -80,10 +80,11 @@ class NotUp(Exception):
 
 
 class Server:
-    def __init__(self, program, data, log, tracer=(), environment=None, cell="two_pandas.json"):
+    def __init__(self, program, data, log, tracer=(), environment=None, cell="two_pandas.json",
+                 speed=5):
         self.began = time.monotonic()
         self.process = subprocess.Popen(
-            [*tracer, program, "serve", "--cell", str(ROOT / "config" / cell), "--speed", "5",
+            [*tracer, program, "serve", "--cell", str(ROOT / "config" / cell), "--speed", str(speed),
              "--listen", "127.0.0.1:0", "--data", str(data)],
             stdout=subprocess.PIPE, stderr=log, text=True, env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()

@@ -10,10 +10,17 @@ After each kill
   the next step begins,
 - nothing is done again: the job does not run.
 
-Also kills the server while both hands hold a bar. Both still hold it afterwards, and move only together.
+Also kills the server
+- while both hands hold a bar: both still hold it afterwards, and move only together,
+- while a hand, of a robot that stays where it is, is at the bar on the table: before the bar is attached, while it is
+  attached, and after it is detached. The arm does not leave by itself. A job that waits for this names the steps with
+  which the arm may leave, and a job that begins with them succeeds.
 """
+import contextlib
 import json
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 import time
@@ -142,11 +149,95 @@ def check_both_hands(program, folder, log):
         server.kill()
 
 
+def bar_at(z):
+    pose = {"link": "left_panda_hand", "xyz": [-0.15, 0.4, z], "rpy": [3.1416, 0, 0]}
+    return {"move_to": {"pose": pose}, "arm": "left"}
+
+
+AT_BAR = [bar_at(0.5), {"gripper": {"arm": "left", "width_m": 0.07}}, bar_at(0.345),
+          {"gripper": {"arm": "left", "width_m": 0.03}}]
+TAKE_BAR = {"attach": {"object": "bar", "link": "left_panda_hand", "touch": ["table"]}}
+PUT_BAR = {"detach": {"object": "bar", "touch": ["table"]}}
+LEAVE = [{"gripper": {"arm": "left", "width_m": 0.07}}, bar_at(0.5)]
+STAY = {"wait_s": 60}
+# By name: the steps until the kill and after it; the steps with which the arm may leave; the text that names them.
+LEFT_AT_BAR = {
+    "before attach": ([*AT_BAR, STAY, TAKE_BAR, *LEAVE], [TAKE_BAR, PUT_BAR],
+                      "if the hand is at bar, begin with an attach and a detach step"),
+    "attached": ([*AT_BAR, TAKE_BAR, STAY, *LEAVE], [PUT_BAR], "if bar rests there, begin with a detach step"),
+    "detached": ([*AT_BAR, TAKE_BAR, PUT_BAR, STAY, *LEAVE], [TAKE_BAR, PUT_BAR],
+                 "if the hand is at bar, begin with an attach and a detach step"),
+}
+
+
+@contextlib.contextmanager
+def robots_that_stay(program, folder, log):
+    """Yields the cell file of config/pick_and_place.json with robots in processes of their own."""
+    names = iter(("left", "right"))
+
+    def remote(_):
+        endpoint = f"unix:{folder}/{next(names)}.sock"
+        controller = {"type": "remote", "endpoint": endpoint, "feedback_period_s": 0.004, "feedback_timeout_s": 0.8}
+        return f'"controller": {json.dumps(controller)}'
+
+    text = (ROOT / "config/pick_and_place.json").read_text().replace('"../models', f'"{ROOT}/models')
+    cell = pathlib.Path(folder) / "cell.json"
+    cell.write_text(re.sub(r'"controller": \{"type": "sim"[^}]*\}', remote, text))
+    robots = []
+    try:
+        for name in ("left", "right"):
+            robots.append(subprocess.Popen(
+                [program, "arm", "--cell", str(cell), "--robot", name, "--listen", f"unix:{folder}/{name}.sock"],
+                stdout=log, stderr=log))
+        yield cell
+    finally:
+        for robot in robots:
+            robot.kill()
+            robot.wait()
+
+
+def check_arm_leaves(program, name, folder, log):
+    steps, leaves, text = LEFT_AT_BAR[name]
+
+    def job(server, key, holds, body=None):
+        if body is not None:
+            status, answer = server.call("POST", API + "/jobs", {"id": key, "steps": body})
+            assert status == 202, answer
+        return wait_for(f"{name}: {key}", lambda: holds(server.call("GET", API + f"/jobs/{key}")[1]))
+
+    def has_succeeded(view):
+        assert view["state"] not in ("failed", "expired"), view
+        return view["state"] == "succeeded" or None
+
+    with robots_that_stay(program, folder, log) as cell:
+        data = pathlib.Path(folder) / "data"
+        server = Server(program, data, log, cell=cell, speed=1)
+        try:
+            job(server, "pick", lambda view: view["step"] == steps.index(STAY) or None, steps)
+            time.sleep(0.2)  # until it is stored
+        finally:
+            server.kill()
+        server = Server(program, data, log, cell=cell, speed=1)
+        try:
+            wait_for("robots", lambda: server.call("GET", API + "/arms/left")[1]["link"] == "up" or None)
+            assert server.call("POST", API + "/resume")[0] < 300
+            job(server, "away", lambda view: any(text in wait.get("detail", "") for wait in view["waits_on"]) or None,
+                [bar_at(0.5)])
+            assert server.call("DELETE", API + "/jobs/away")[0] < 300
+            job(server, "leave", has_succeeded, [*leaves, *LEAVE])
+        finally:
+            server.kill()
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
         check_both_hands(program, pathlib.Path(folder) / "data", log)
         print("killed while both hands held the bar", flush=True)
+    for name in LEFT_AT_BAR:
+        with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
+            check_arm_leaves(program, name, folder, log)
+            print(f"killed at the bar, {name}: the arm leaves", flush=True)
     for step in range(len(STEPS)):
         with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
             data = pathlib.Path(folder) / "data"
