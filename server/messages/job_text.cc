@@ -157,9 +157,7 @@ std::string remedy_of(const Schema& job, const Present& now) {
   if (waits_on(job, "speed")) {
     return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
   }
-  if (waits_on(job, "holding")) {
-    return " " + text_at(list_at(job, "waits_on").front(), "detail") + "; or " + cancel + ".";
-  }
+  if (waits_on(job, "holding")) return " Or " + cancel + ".";  // its detail says how it ends
   if (waits_on(job, "action")) return " It goes on by itself when this step is done.";
   if (waits_on(job, "io")) {
     return " It goes on by itself when the signal has this value; GET /api/v1/io shows all "
