@@ -68,6 +68,10 @@ void print_arm(const Cell& cell, const Arm& arm) {
                 << no_minus_zero(cell.joint(id).start) << " (" << cell.joint(id).name << ')';
     std::cout << '\n';
   }
+  if (arm.payload) {
+    std::cout << "    holds at most " << arm.payload->max_kg << " kg, and then keeps "
+              << 100.0 * arm.payload->brake_at_max << " % of its brake\n";
+  }
   std::cout << "    " << std::left << std::setw(30) << "joint" << std::right;
   for (const char* limit : {"lower", "upper", "velocity", "accel.", "jerk", "brake"}) {
     std::cout << std::setw(9) << limit << ' ';
@@ -134,7 +138,13 @@ void print_cell(const Cell& cell) {
     const Eigen::Vector3d& p = object.X_WO.translation();
     std::cout << "object " << object.name << ": " << kNames[object.shape.index()] << " at "
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
-              << no_minus_zero(p.z()) << '\n';
+              << no_minus_zero(p.z());
+    if (const double kg = object.mass.kg; kg > 0.0) {
+      const auto holds = [kg](const Arm& arm) { return arm.payload && arm.payload->max_kg >= kg; };
+      std::cout << ", " << kg << " kg"
+                << (std::ranges::any_of(cell.arms, holds) ? "" : ": no arm may hold it (payload)");
+    }
+    std::cout << '\n';
   }
   print_io(cell.io);
   std::cout << settings_text(settings_of(cell));

@@ -38,6 +38,25 @@ TEST_F(ValidateCommand, PrintsTheEndpointOfARemoteRobot) {
               HasSubstr("; controller remote at tcp:10.0.0.7:4000; when simulated: lag 0"));
 }
 
+TEST_F(ValidateCommand, PrintsMassesAndWhatArmsMayHold) {
+  const fs::path strong =
+      changed_cell("/robots/0/arms/0/payload", {{"max_kg", 3}, {"brake_at_max", 0.5}});
+  json cell = json::parse(read_text_file(strong).value());
+  for (const auto& [name, kg] : {std::pair("light", 2.5), {"heavy", 4.0}}) {
+    cell["objects"].push_back({{"name", name},
+                               {"box", {0.1, 0.1, 0.1}},
+                               {"xyz", {0, 0, 3}},
+                               {"rpy", {0, 0, 0}},
+                               {"mass_kg", kg}});
+  }
+  const Outcome outcome = run("validate --cell " + file("masses.json", cell.dump()).string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("    holds at most 3 kg, and then keeps 50 % of its brake\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("object light: box at 0, 0, 3, 2.5 kg\n"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("object heavy: box at 0, 0, 3, 4 kg: no arm may hold it (payload)\n"));
+}
+
 json modbus(const std::string& device, const std::string& table, int address) {
   return {{"device", device}, {"table", table}, {"address", address}};
 }
