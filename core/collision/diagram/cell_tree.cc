@@ -18,7 +18,7 @@ void CellTree::split(int index, int levels) {
   const bool split_a = cell.split_a && a_->width(cell.a) > kFinest;
   const bool split_b = cell.split_b && b_->width(cell.b) > kFinest;
   if (!split_a && !split_b) {
-    at(index).state = CellState::finest;
+    if (at(index).state == CellState::mixed) at(index).state = CellState::finest;
     return;
   }
   const int children = static_cast<int>(cells_.size());
@@ -38,9 +38,7 @@ void CellTree::split(int index, int levels) {
   }
   if (levels <= 1) return;
   const int end = static_cast<int>(cells_.size());
-  for (int child = children; child < end; ++child) {
-    if (wider(at(child), kFinest)) split(child, levels - 1);
-  }
+  for (int child = children; child < end; ++child) split(child, levels - 1);
 }
 
 void CellTree::split_if_wide(int index, Duration wide) {

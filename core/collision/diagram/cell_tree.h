@@ -60,8 +60,9 @@ class CellTree {
     return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
   }
 
-  // Halves the cell along the axes that split_a and split_b select. If these axes are too narrow,
-  // sets the state to `finest`. Splits the children too if `levels` > 1.
+  // Halves the cell along the axes that split_a and split_b select. If these axes are too narrow, a
+  // mixed cell becomes `finest`, and an unknown cell stays unknown. Splits the children too if
+  // `levels` > 1.
   void split(int cell, int levels);
   // Splits the cell, without evaluating it, if it is unknown and wider than `wide` (at least
   // kWide).
