@@ -1,6 +1,7 @@
 #include "core/jobs/lanes.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace armloom {
@@ -17,17 +18,36 @@ WaitingLeg waiting_leg(const Step& step) {
   return leg;
 }
 
+// Returns true if the step comes after a waiting step of other arms for which `is_leg` is false.
+bool comes_after_unknown(const Step& step, const JobBook& book,
+                         const std::function<bool(JobId)>& is_leg) {
+  return std::ranges::any_of(step.job->after, [&](JobId id) {
+    const Step* before = book.find(id);
+    return before != nullptr && before->in<Queued>() != nullptr && !is_leg(id) &&
+           before->leg.arms != step.leg.arms;
+  });
+}
+
 }  // namespace
 
-void Lanes::add(const Step& step) {
+void Lanes::add(const Step& step, const JobBook& book) {
   if (step.job->errand.before) is_stale_ = true;
-  if (is_stale_ || !step.knows_its_end()) return;
-  sequence_.append(waiting_leg(step));
+  if (is_stale_ || !step.knows_its_end() || is_left_out(step)) return;
+  if (comes_after_unknown(step, book, [&](JobId id) { return sequence_.has(only_step(id)); })) {
+    left_out_.insert(step.leg.arms.begin(), step.leg.arms.end());
+  } else {
+    sequence_.append(waiting_leg(step));
+  }
+}
+
+bool Lanes::is_left_out(const Step& step) const {
+  return std::ranges::any_of(step.leg.arms, [&](ArmId arm) { return left_out_.contains(arm); });
 }
 
 void Lanes::follow(const Step& step, const StepPhase& before) {
   const bool waited = std::holds_alternative<Queued>(before);
   const auto* ended = step.in<Ended>();
+  if (waited && !left_out_.empty()) is_stale_ = true;  // steps that come after it may have a place
   if (waited && ended != nullptr) {
     if (!sequence_.remove(step.id)) is_stale_ = true;
   } else if (!waited && (step.in<Queued>() != nullptr ||
@@ -52,9 +72,17 @@ void Lanes::renew(const JobBook& book, const ArmRests& arms) {
       }
     }
   }
+  left_out_.clear();
+  std::set<JobId> placed;
   std::vector<WaitingLeg> legs;
   for (JobId id : in_turn(book, waiting)) {
     const Step& step = book.at(id);
+    const auto is_leg = [&](JobId before) { return placed.contains(before); };
+    if (is_left_out(step) || comes_after_unknown(step, book, is_leg)) {
+      left_out_.insert(step.leg.arms.begin(), step.leg.arms.end());
+      continue;
+    }
+    placed.insert(id);
     WaitingLeg& leg = legs.emplace_back(waiting_leg(step));
     if (step.job->errand.lets_pass && book.active().contains(*step.job->errand.lets_pass)) {
       leg.after.push_back(only_step(*step.job->errand.lets_pass));

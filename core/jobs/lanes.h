@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "core/coordination/verdict.h"
@@ -49,13 +50,19 @@ class Lanes {
 
   Lanes& operator=(Lanes&&) = default;
   // Update the sequence after a new job, and after a job that left phase `before`.
-  void add(const Step& step);
+  void add(const Step& step, const JobBook& book);
   void follow(const Step& step, const StepPhase& before);
   // Records that the steps of the last after() call were admitted.
   void admitted(const std::vector<StepId>& steps) { sequence_.admitted(steps); }
   void forget_passages() { sequence_.forget_passages(); }
 
+  // Returns true if the step is behind one that is left out, on one of its arms.
+  [[nodiscard]] bool is_left_out(const Step& step) const;
+
   SafeSequence sequence_;  // of the steps of all queued jobs
+  // Arms whose further steps are in no sequence, because they come after a step of other arms whose
+  // end is not known yet: a place before that step would be wrong.
+  std::set<ArmId> left_out_;
   bool is_stale_ = true;
 };
 

@@ -63,7 +63,7 @@ const Step& Transitions::add(const Submit& job, const std::optional<Errand>& err
   Step step = step_of(state_, job, errand);
   step.leg = state_.arms.leg_of(*state_.cell, step.id, *step.trajectory);
   const Step& added = state_.jobs.add(std::move(step));
-  state_.lanes.add(added);
+  state_.lanes.add(added, state_.jobs);
   return added;
 }
 

@@ -95,6 +95,7 @@ class SafeSequence {
   [[nodiscard]] bool goes_before(StepId first, StepId other) const;
   // Returns true if the step is in the sequence, or if it is not a waiting leg.
   [[nodiscard]] bool has_place(StepId step) const;
+  [[nodiscard]] bool has(StepId leg) const { return index_.contains(leg); }
   // Returns true if the step begins where the legs before it leave its arms, or if it is not a
   // waiting leg.
   [[nodiscard]] bool follows_on(StepId step) const;

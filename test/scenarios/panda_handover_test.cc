@@ -195,5 +195,37 @@ TEST_F(Handover, BothHandsHoldTheBarAndCarryItTogether) {
   FAIL() << "the bar is not placed";
 }
 
+// The left arm puts its part where the right arm begins, and stays there. Where the later motions
+// of `a` end is not known before it holds the part. Its motion to that place seemed to block `b`,
+// so that it waited for `b`, which comes after it.
+TEST_F(Handover, AJobDoesNotGiveWayToOneThatComesAfterIt) {
+  const auto to = [](const std::string& arm, const char* xyz) {
+    return R"({"arm": ")" + arm + R"(", "move_to": {"pose": {"link": ")" + arm +
+           R"(_panda_hand", "rpy": [3.14159265, 0, 0], "xyz": )" + xyz + "}}}";
+  };
+  const auto open = [](const char* width_m) {
+    return std::string(R"({"gripper": {"arm": "left", "width_m": )") + width_m + "}}";
+  };
+  const std::string above_part = to("left", "[-0.1, -0.35, 0.384]");
+  const std::string above_place = to("left", "[-0.1, 0.05, 0.384]");
+  const std::string part = R"("object": "left_part", "touch": ["table"])";
+  const std::string a = above_part + ", " + open("0.07") + ", " +
+                        to("left", "[-0.1, -0.35, 0.254]") + ", " + open("0.04") +
+                        R"(, {"attach": {"link": "left_panda_hand", )" + part + "}}, " +
+                        above_part + ", " + above_place + ", " + to("left", "[-0.1, 0.05, 0.254]") +
+                        R"(, {"detach": {)" + part + "}}, " + open("0.07") + ", " + above_place;
+  const std::string jobs = R"([{"at": 0, "job": {"id": "a", "steps": [)" + a +
+                           R"(]}}, {"at": 0, "job": {"id": "b", "after": ["a"], "steps": [)" +
+                           to("right", "[-0.1, 0.05, 0.384]") + "]}}]";
+  for (TimedJob& timed : value_of(read_jobs_text(jobs))) {
+    (void)value_of(executive().submit(std::move(timed.job)));
+  }
+  simulation->run_until(simulation->now() + std::chrono::minutes(2));
+  for (const char* key : {"a", "b"}) {
+    const JobView job = *executive().job(key);
+    EXPECT_EQ(job.state, JobState::succeeded) << key << ": " << job.detail();
+  }
+}
+
 }  // namespace
 }  // namespace armloom
