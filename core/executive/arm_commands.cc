@@ -55,7 +55,8 @@ void Executive::Impl::set_speed(std::optional<ArmId> arm, double share) {
 void Executive::Impl::set_brakes() {
   bool has_changed = false;
   for (const ArmId arm : all_arms(*cell_)) {
-    const double share = kept_brake(*cell_, arm, scene_.scene()->attachments());
+    const auto& held = scene_.scene()->attachments();
+    const double share = find_overload(*cell_, arm, held) ? 0.0 : kept_brake(*cell_, arm, held);
     if (share == scheduler_.state().speed.brake(arm)) continue;
     has_changed = true;
     step(SetBrake{arm, share});
@@ -66,7 +67,10 @@ void Executive::Impl::set_brakes() {
 void Executive::Impl::pass_on_speed() {
   std::vector<ArmCommand::SetSpeed> speeds;
   const SpeedOverride& speed = scheduler_.state().speed;
-  for (ArmId arm : all_arms(*cell_)) speeds.push_back({speed.effective(arm), speed.brake(arm)});
+  for (ArmId arm : all_arms(*cell_)) {
+    const double brake = kept_brake(*cell_, arm, scene_.scene()->attachments());
+    speeds.push_back({speed.effective(arm), brake});
+  }
   execution_.set_speed(std::move(speeds));
   publisher_.tell_arms(clock_.now);
 }

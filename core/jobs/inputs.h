@@ -183,7 +183,8 @@ struct SetSpeed {
   std::optional<ArmId> arm;
   double share;
 };
-// The arm keeps this share, above 0, of its brake with what it holds now.
+// The arm keeps this share of its brake with what it holds now; 0 if it holds more than it may
+// (find_overload() in core/model/payload.h).
 struct SetBrake {
   ArmId arm;
   double share;

@@ -37,7 +37,7 @@ class SpeedOverride {
     (arm ? arms_[arm->index()] : cell_) = share;
   }
 
-  // The arm keeps this share, above 0, of its brake from now on.
+  // The arm keeps this share of its brake from now on; 0 if it holds too much, and may not move.
   void set_brake(ArmId arm, double share) { brakes_[arm.index()] = share; }
 
   [[nodiscard]] double cell() const { return cell_; }

@@ -68,7 +68,7 @@ std::optional<Problem> find_overload(const Cell& cell, ArmId arm,
   } else {
     std::snprintf(
         text, sizeof text,
-        " would hold %.4g kg, which count as %.4g kg because the center of mass is more "
+        " would hold %.4g kg, which counts as %.4g kg because the center of mass is more "
         "than %.4g m from the hand; its payload is %.4g kg: hold the object nearer to its "
         "center of mass",
         mass_kg, counted_kg, carrier.payload->lever_m, carrier.payload->max_kg);

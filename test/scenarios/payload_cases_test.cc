@@ -84,5 +84,22 @@ TEST(Payload, AnArmThatStatesNoneHoldsNoMass) {
   EXPECT_EQ(refused.error().front().slug, "payload-unknown");
 }
 
+// As after a restart with a cell file that permits less.
+TEST(Payload, AnArmThatHoldsTooMuchDoesNotMoveUntilItLetsGo) {
+  Tasks cell(with_payload());
+  ASSERT_TRUE(cell.scene().hold({.object = heavy(5.0), .link = "x_ball"}));
+  cell.submit(task("away", {slide_to("x", 0.5)}));
+  cell.simulation->run_until(at(5s));
+  EXPECT_DOUBLE_EQ(x_of(cell).effective_speed_override, 0.0);
+  const JobView job = cell.job("away");
+  ASSERT_EQ(job.waits_on.size(), 1U);
+  EXPECT_EQ(job.waits_on.front().kind, Wait::Kind::speed);
+  EXPECT_THAT(job.waits_on.front().detail, HasSubstr("x holds more than its payload permits"));
+  EXPECT_FALSE(job.times.started_at);
+  ASSERT_TRUE(cell.executive().detach("part"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("away").state, JobState::succeeded) << cell.job("away").detail();
+}
+
 }  // namespace
 }  // namespace armloom
