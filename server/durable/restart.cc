@@ -26,7 +26,8 @@ namespace {
 
 struct ObjectNotPutBack {
   std::string name;
-  std::string why;  // a sentence
+  std::string why;       // a sentence
+  bool is_kept = false;  // its record stays in the store
 };
 
 Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
@@ -68,7 +69,13 @@ std::vector<ObjectNotPutBack> put_back(std::vector<LeftObject> objects, LiveScen
     if (left.is_damaged) {
       not_done.push_back({left.object.name, what + "its record in the data folder is damaged"});
     } else if (const auto done = put_back(left.object, scene); !done) {
-      not_done.push_back({left.object.name, what + problem_sentence("", done.error().front())});
+      const Problem& problem = done.error().front();
+      // An arm held it that is in another cell file: the next session may have that file again.
+      const bool is_kept = problem.slug == "unknown-link";
+      const std::string why = what + problem_sentence("", problem);
+      not_done.push_back({left.object.name,
+                          why + (is_kept ? "; its record is kept until you PUT or DELETE it" : ""),
+                          is_kept});
     }
   }
   return not_done;
@@ -138,7 +145,7 @@ StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string&
   view["ended_s"] = view["started_s"].is_null() ? view["submitted_s"] : view["started_s"];
   view["ended_at"] = clock.at(TimePoint{});
   view["result"] = {{"reason", to_string(reason)}, {"detail", detail}};
-  if (view.contains("step")) view["result"]["step"] = view["step"];  // of a job with steps
+  if (view.contains("step")) view["result"]["step"] = view["step"];  // of a job with steps, from 0
   using nlohmann::ordered_json;
   job.view = view.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   return job;
@@ -267,16 +274,17 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     executive.alert({Alert::Level::error, one.why});
     // Deletes the change from the store. The alert reports it once; the next session starts without
     // it.
-    keeper.store().change({{.name = one.name}}, [](bool) {});
+    if (!one.is_kept) keeper.store().change({{.name = one.name}}, [](bool) {});
   }
   bool is_overloaded = false;
   for (std::uint32_t arm = 0; arm < cell.arms.size(); ++arm) {
     const auto overload = find_overload(cell, ArmId{arm}, executive.scene().scene()->attachments());
     if (!overload) continue;
     is_overloaded = true;
-    executive.alert({Alert::Level::error, overload->detail +
-                                              "; it held this before the server was restarted: let "
-                                              "it go with POST /scene/objects/{name}/detach"});
+    executive.alert({Alert::Level::error,
+                     "arm " + cell.arms[arm].name + " holds more than this cell file permits (" +
+                         overload->detail + "). It does not move until it lets the object go: " +
+                         "POST /scene/objects/NAME/detach"});
   }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {

@@ -12,6 +12,8 @@ After each kill
 
 Also kills the server
 - while both hands hold a bar: both still hold it afterwards, and move only together,
+- while the left hand holds the part, and starts once with a cell file without the left robot: the next server with the
+  right cell file still knows that the hand holds the part,
 - while a hand, of a robot that stays where it is, is at the bar on the table: before the bar is attached, while it is
   attached, and after it is detached. The arm does not leave by itself. A job that waits for this names the steps with
   which the arm may leave, and a job that begins with them succeeds.
@@ -105,6 +107,29 @@ def check(program, at, folder, log):
         time.sleep(0.5)
         assert server.call("GET", API + "/jobs/pick")[1]["state"] == "interrupted"
         return f"interrupted at step {ended}, part {'held' if held else 'placed'}"
+    finally:
+        server.kill()
+
+
+def check_another_cell(program, folder, log):
+    data = pathlib.Path(folder) / "data"
+    kill_at(program, ATTACH + 2, data, log)
+    text = re.sub(r"^ *//.*$", "", (ROOT / "config/two_pandas.json").read_text(), flags=re.MULTILINE)
+    cell = json.loads(text.replace('"../models', f'"{ROOT}/models'))
+    cell["robots"] = [robot for robot in cell["robots"] if robot["name"] == "right"]
+    cell.pop("allowed_collisions", None)
+    without_left = pathlib.Path(folder) / "right.json"
+    without_left.write_text(json.dumps(cell))
+    server = Server(program, data, log, cell=without_left)
+    try:
+        texts = [alert["text"] for alert in server.call("GET", API + "/alerts")[1]["alerts"]]
+        assert any('"part" cannot be restored' in text and "is kept until" in text for text in texts), texts
+    finally:
+        server.kill()
+    server = Server(program, data, log)
+    try:
+        held = server.call("GET", API + "/scene")[1]["held"]
+        assert [h["object"]["name"] for h in held] == ["part"] and held[0]["arm"] == "left", held
     finally:
         server.kill()
 
@@ -234,6 +259,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
         check_both_hands(program, pathlib.Path(folder) / "data", log)
         print("killed while both hands held the bar", flush=True)
+    with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
+        check_another_cell(program, folder, log)
+        print("started once without the left robot: the part is still held", flush=True)
     for name in LEFT_AT_BAR:
         with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+") as log:
             check_arm_leaves(program, name, folder, log)
