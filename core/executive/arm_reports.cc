@@ -57,6 +57,15 @@ bool ArmReports::is_told_of_a_start(ArmId arm) const {
   return job && shown_.starts.knows(*job) && !shown_.scheduler.find(*job)->times.started_at;
 }
 
+// Returns the job of the arm: the one in motion, or one with steps that has begun and waits between
+// its motions; nullopt if there is none.
+std::optional<JobId> ArmReports::job_of(ArmId arm) const {
+  if (const auto job = shown_.scheduler.occupant(arm)) return job;
+  const auto next = shown_.scheduler.head(arm);
+  const Task* task = next ? shown_.tasks.find(*next) : nullptr;
+  return task != nullptr && task->began_at && !task->end ? next : std::nullopt;
+}
+
 ArmState ArmReports::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = shown_.motions.feedback(arm).phase;
@@ -68,7 +77,8 @@ ArmState ArmReports::state_of(ArmId arm) const {
   const auto job = shown_.scheduler.occupant(arm);
   if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::paused;
   if (moves) return ArmState::moving;
-  return job && phase == Phase::stopped ? ArmState::paused : ArmState::idle;
+  const bool waits = job ? phase == Phase::stopped : job_of(arm).has_value();
+  return waits ? ArmState::paused : ArmState::idle;
 }
 
 ArmStatus ArmReports::status_of(ArmId arm) const {
@@ -84,9 +94,9 @@ ArmStatus ArmReports::status_of(ArmId arm) const {
   if (const auto& stop = shown_.scheduler.state().arms.stop_of(arm))
     status.stop_cause = stop->cause;
   status.deviation_max_rad = std::max(deviation_max_rad, status.deviation_rad);
-  status.job = shown_.scheduler.occupant(arm);
-  if (status.job) {
-    const Step& step = *shown_.scheduler.find(*status.job);
+  status.job = job_of(arm);
+  if (const auto job = shown_.scheduler.occupant(arm)) {
+    const Step& step = *shown_.scheduler.find(*job);
     status.progress = to_seconds(step.progress) / to_seconds(step.trajectory->duration());
   }
   return status;

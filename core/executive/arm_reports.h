@@ -23,6 +23,7 @@ class ArmReports {
 
  private:
   [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
+  [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const;
   [[nodiscard]] ArmState state_of(ArmId arm) const;
   [[nodiscard]] ArmStatus status_of(ArmId arm) const;
   [[nodiscard]] ArmView view_of_arm(ArmId arm, const ArmStatus& status) const;

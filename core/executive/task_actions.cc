@@ -84,7 +84,8 @@ Result<bool> TaskActions::has_arm(Task& task, ArmId arm) {
   if (!moves(task, arm)) {
     return failure(Problem{ProblemKind::conflict, "held-by-another-arm", "",
                            "arm " + name + " holds the object, and no step of this job moves " +
-                               name + ": let a job of " + name + " detach it first"});
+                               name + ": let a job of " + name +
+                               " detach it, and submit this job with \"after\": that job"});
   }
   const auto head = scheduler_.head(arm);
   const bool has_other = head && tasks_.told(*head) != task.id;

@@ -32,7 +32,11 @@ void TaskRun::end_misfits() {
     if (task == nullptr || task->end) continue;
     const std::vector<StepRequest> steps = task->to_come();
     const auto misfit = find_misfit(*cell_, steps, present);
-    if (!misfit) {
+    const TaskStep* present_step = task->present();
+    // An action that is tried again may fit later.
+    const bool is_retried = task->began_at && present_step != nullptr && !present_step->job &&
+                            present_step->retried < present_step->request.retry;
+    if (!misfit || is_retried) {
       change_holding(*cell_, steps, present.hands);
       continue;
     }

@@ -130,7 +130,9 @@ class StepCheck {
           attach.shared ? std::ranges::any_of(hands, is_of_arm) : hands == std::vector{*link};
       if (is_twice) {
         add("held-twice", "/attach/object",
-            attach.link + " holds " + attach.object + " already: detach it before", attach.object);
+            attach.link + " holds " + attach.object +
+                " already, now or after the jobs before: detach it before",
+            attach.object);
       }
       if (attach.shared && hands.empty()) {
         add("not-held", "/attach/shared",

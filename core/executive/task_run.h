@@ -83,7 +83,7 @@ class TaskRun : Modules {
  private:
   bool go_on(Task& task);
   [[nodiscard]] const Step* lost_motion(const Task& task) const;
-  void tell_stop(Task& task, JobId next);
+  void tell_operator_wait(Task& task, JobId next);
   bool waits_to_retry(Task& task, const std::string& why);
   void end_misfits();
   bool go_on_with_motion(Task& task, TaskStep& present);

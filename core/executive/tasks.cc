@@ -8,6 +8,7 @@
 #include "core/executive/task_intake.h"
 #include "core/executive/task_run.h"
 #include "core/executive/task_view.h"
+#include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
 
 namespace armloom {
@@ -134,7 +135,7 @@ bool TaskRun::go_on(Task& task) {
   if (present.job) return go_on_with_motion(task, present);
   const auto next = task.next_motion();
   if (next && !scheduler_.has_turn_for_actions(*next)) {
-    tell_stop(task, *next);
+    tell_operator_wait(task, *next);
     return false;
   }
   if (!next && any_stopped(task)) return false;
@@ -187,17 +188,13 @@ const Step* TaskRun::lost_motion(const Task& task) const {
   return nullptr;
 }
 
-// Publishes that the task waits for a resume, if an arm of its next motion is stopped.
-void TaskRun::tell_stop(Task& task, JobId next) {
+// Publishes that the task waits for an operator, if its next motion would: its actions wait too.
+void TaskRun::tell_operator_wait(Task& task, JobId next) {
   if (!task.began_at) return;  // the motion says so itself
-  for (const ArmId arm : scheduler_.find(next)->trajectory->arms()) {
-    const auto& stop = scheduler_.state().arms.stop_of(arm);
-    if (!stop) continue;
-    Wait wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
-    if (task.waits_on.size() == 1 && task.waits_on.front().same_cause(wait)) return;
-    task.waits_on = {std::move(wait)};
-    return tell_task(task.id);
-  }
+  auto wait = operator_wait(scheduler_.state(), *scheduler_.find(next));
+  if (!wait || (task.waits_on.size() == 1 && task.waits_on.front().same_cause(*wait))) return;
+  task.waits_on = {*std::move(wait)};
+  tell_task(task.id);
 }
 
 bool TaskRun::go_on_with_motion(Task& task, TaskStep& present) {

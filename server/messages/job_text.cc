@@ -158,11 +158,12 @@ std::string remedy_of(const Schema& job, const Present& now) {
     return " To let it continue: PUT /api/v1/speed, or /api/v1/arms/NAME/speed; or " + cancel + ".";
   }
   if (waits_on(job, "holding")) return " Or " + cancel + ".";  // its detail says how it ends
-  if (waits_on(job, "action")) return " It goes on by itself when this step is done.";
+  if (waits_on(job, "action")) {
+    return " It goes on by itself when this step is done. Or " + cancel + ".";
+  }
   if (waits_on(job, "io")) {
-    return " It goes on by itself when the signal has this value; GET /api/v1/io shows all "
-           "signals. "
-           "Or " +
+    return " It goes on by itself when the signal has this value and its device is connected; "
+           "GET /api/v1/io shows all signals. Or " +
            cancel + ".";
   }
   if (waits_on(job, "arm") || waits_on(job, "object") || waits_on(job, "job")) {

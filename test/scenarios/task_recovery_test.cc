@@ -156,6 +156,46 @@ TEST(Task, OfABatchHoldsWhatTheOneBeforeHasTaken) {
   EXPECT_EQ(cell.job("place").state, JobState::succeeded) << cell.job("place").detail();
 }
 
+// At speed override 0, actions wait like motions, and the job says so. Meanwhile, its arm is not
+// idle.
+TEST(Task, WaitsBetweenMotionsWhileTheSpeedOverrideIsZero) {
+  Tasks cell;
+  cell.submit(
+      task("io", {slide_to("x", -0.5), {"", WaitIoRequest{"ready", true}}, slide_to("x", -1.0)}));
+  while (cell.job("io").step != 1) cell.simulation->tick();
+  cell.simulation->tick();
+  EXPECT_EQ(cell.executive().arms().front().state, ArmState::paused);
+  EXPECT_EQ(cell.executive().arms().front().job, "io");
+  ASSERT_EQ(cell.job("io").waits_on.front().kind, Wait::Kind::io);
+  cell.executive().set_speed(std::nullopt, 0.0);
+  ASSERT_TRUE(cell.executive().signals().set("ready", true));
+  run_until(cell, cell.simulation->now() + 1s);
+  EXPECT_EQ(cell.job("io").step, 1U);
+  ASSERT_EQ(cell.job("io").waits_on.front().kind, Wait::Kind::speed);
+  cell.executive().set_speed(std::nullopt, 1.0);
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("io").state, JobState::succeeded) << cell.job("io").detail();
+  EXPECT_EQ(cell.executive().arms().front().state, ArmState::idle);
+}
+
+// y waits for the part. It is in the hand of x, then in no hand, and y can take it.
+TEST(Task, GoesOnWithRetriesIfAnotherJobEndsWithTheObjectInItsHand) {
+  Tasks cell;
+  cell.submit(task("holder", {slide_to("x", 0.0),
+                              attach("x_ball"),
+                              slide_to("x", 0.5),
+                              {"", WaitIoRequest{"ready", true, Duration(2s)}},
+                              slide_to("x", -1.0)}));
+  cell.submit(
+      task("late", {slide_to("y", -0.9), retried(attach("y_ball"), 4), slide_to("y", -1.0)}));
+  while (!is_terminal(cell.job("holder").state)) cell.simulation->tick();
+  ASSERT_EQ(cell.job("holder").reason(), Reason::step_failed);
+  EXPECT_FALSE(is_terminal(cell.job("late").state)) << cell.job("late").detail();
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("late").step, 1U);
+  EXPECT_EQ(cell.job("late").detail().find("what the arms hold has changed"), std::string::npos);
+}
+
 std::string slug_of(const Result<CollisionObject>& answer) {
   return answer ? "" : answer.error().front().slug;
 }
