@@ -146,8 +146,8 @@ class Claim {
         kernel_pair(a_.capsule(capsule_a_), b_.capsule(capsule_b_), limit_m, kMargin_m);
     const filter::Kernel& kernel = filter::best_kernel();
     if (by_ == By::parted) {
-      return kernel.parted(a_.swept(capsule_a_), b_.swept(capsule_b_), pair).distance >=
-             pair.limit_up;
+      const filter::SweptCapsule a = a_.swept(capsule_a_), b = b_.swept(capsule_b_);
+      return kernel.parted(a, b, pair, hit_of(a, b, pair).direction).distance >= pair.limit_up;
     }
     pair.row_a = a_.row(capsule_a_);
     pair.row_b = b_.row(capsule_b_);

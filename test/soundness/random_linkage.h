@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "core/collision/filter/kernel.h"
+#include "core/collision/filter/kernels.h"
 #include "test/soundness/pairs.h"
 
 namespace armloom::soundness {
@@ -61,5 +61,17 @@ struct RandomLinkage {
   std::vector<filter::Capsule> capsules;
   std::vector<int> ancestors;
 };
+
+// Returns a hit of the two capsules in the first lane, as near_pairs finds it: with its direction.
+inline filter::Hit hit_of(const filter::SweptCapsule& a, const filter::SweptCapsule& b,
+                          filter::Pair pair) {
+  const float still[filter::kLanes] = {};
+  pair.a = pair.b = pair.row_a = pair.row_b = 0;
+  pair.limit_up = 100.0F;  // so that the capsules are near
+  filter::Hit hit;
+  filter::best_kernel().near_pairs({a.at, still, nullptr}, {b.at, still, nullptr}, {&pair, 1, {}},
+                                   1U, &hit);
+  return hit;
+}
 
 }  // namespace armloom::soundness

@@ -109,8 +109,11 @@ TEST(Stretches, BoundIsSoundAndTight) {
     const int capsule_b = b.random_capsule(random);
     const filter::Pair pair =
         kernel_pair(a.capsule(capsule_a), b.capsule(capsule_b), 0.0, kMargin_m);
+    const filter::SweptCapsule swept_a = a.swept(capsule_a), swept_b = b.swept(capsule_b);
     const auto kept_m = static_cast<double>(
-        filter::best_kernel().parted(a.swept(capsule_a), b.swept(capsule_b), pair).distance);
+        filter::best_kernel()
+            .parted(swept_a, swept_b, pair, hit_of(swept_a, swept_b, pair).direction)
+            .distance);
     if (kept_m < 0.0) continue;
     ++pairs;
     const auto radii_m = static_cast<double>(a.capsule(capsule_a).capsule.radius_up +

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <queue>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -19,48 +17,39 @@ class TouchingLeaves {
   // Precondition: leaves are sorted by from_a, then from_b.
   explicit TouchingLeaves(const std::vector<OpenLeaf>& leaves) : leaves_(leaves) {
     for (std::size_t i = 0; i < leaves.size(); ++i) sets_.add();
-    for (std::size_t begin = 0; begin < leaves.size();) {
+    for (std::size_t begin = 0, end = 0; begin < leaves.size(); begin = end) {
       const Duration from = box(begin).from_a;
-      std::size_t end = begin;
-      while (end < leaves.size() && box(end).from_a == from) ++end;
-      drop_those_before(from);
-      for (std::size_t i = begin; i < end; ++i) {
-        join_with_cut(i);
-        if (i > begin && box(i).from_b <= box(i - 1).to_b) sets_.join(i - 1, i);
+      std::erase_if(cut_, [&](const Cut& cut) { return cut.to_a < from; });
+      for (; end < leaves.size() && box(end).from_a == from; ++end) {
+        join_with_cut(end);
+        if (end > begin && box(end).from_b <= box(end - 1).to_b) sets_.join(end - 1, end);
       }
-      for (std::size_t i = begin; i < end; ++i) {
-        cut_.emplace(box(i).from_b, i);
-        ending_.emplace(box(i).to_a, i);
-      }
-      begin = end;
+      const auto before = static_cast<std::ptrdiff_t>(cut_.size());
+      for (std::size_t i = begin; i < end; ++i) cut_.push_back({box(i).from_b, box(i).to_a, i});
+      std::ranges::inplace_merge(cut_, cut_.begin() + before, {}, &Cut::from_b);
     }
   }
 
   [[nodiscard]] std::size_t root(std::size_t leaf) { return sets_.root(leaf); }
 
  private:
-  using Place = std::pair<Duration, std::size_t>;
-
+  struct Cut {  // a leaf at the present A
+    Duration from_b, to_a;
+    std::size_t leaf;
+  };
   [[nodiscard]] const ProgressBox& box(std::size_t leaf) const { return leaves_[leaf].box; }
-  void drop_those_before(Duration from) {
-    for (; !ending_.empty() && ending_.top().first < from; ending_.pop()) {
-      const std::size_t leaf = ending_.top().second;
-      cut_.erase({box(leaf).from_b, leaf});
-    }
-  }
   void join_with_cut(std::size_t leaf) {
-    auto other = cut_.upper_bound({box(leaf).to_b, leaves_.size()});
+    auto other = std::ranges::upper_bound(cut_, box(leaf).to_b, {}, &Cut::from_b);
     while (other != cut_.begin()) {
       --other;
-      if (box(other->second).to_b < box(leaf).from_b) return;
-      sets_.join(other->second, leaf);
+      if (box(other->leaf).to_b < box(leaf).from_b) return;
+      sets_.join(other->leaf, leaf);
     }
   }
 
   const std::vector<OpenLeaf>& leaves_;
   DisjointSets sets_;
-  std::set<Place> cut_;  // leaves at the present A, by from_b
-  std::priority_queue<Place, std::vector<Place>, std::greater<>> ending_;  // the same, by to_a
+  std::vector<Cut> cut_;  // by from_b
 };
 
 // Returns for each leaf the index of its component's first leaf. Precondition: leaves are sorted by

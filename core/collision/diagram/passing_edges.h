@@ -37,7 +37,7 @@ struct CoarseLeaf {
 
 // Returns the leaves that are too wide, in a fixed order. Leaves that touch, corners included, form
 // one region. `remaining`: what remains of both motions. Precondition: leaves do not overlap. Takes
-// O(n log n) time. Pure.
+// O(n log n) time, and time for all leaves at each start of a leaf along A. Pure.
 [[nodiscard]] std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves,
                                                     const ProgressBox& remaining,
                                                     const PassingResolution& resolution);

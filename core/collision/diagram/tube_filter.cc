@@ -2,6 +2,7 @@
 // cell.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 
 #include "core/collision/diagram/tube_pair.h"
@@ -88,37 +89,43 @@ void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
   const Lanes::Side& b = lanes.b[lane];
   parted = a.stretches.block == nullptr || b.stretches.block == nullptr
                ? filter::Parted{hit.distance[lane] - hit.motion_bound[lane], {0.0F, 0.0F}}
-               : filter::best_kernel().parted(a.swept(pair.a), b.swept(pair.b), pair);
+               : filter::best_kernel().parted(a.swept(pair.a), b.swept(pair.b), pair,
+                                              hit.direction + lane);
   const double short_m = static_cast<double>(pair.limit_up - parted.distance);
-  if (short_m > slack_m(narrow(hit.pair, false)) + kAlongShapes_m) lanes.lost |= 1U << lane;
+  if (short_m > kAlongShapes_m && short_m > slack_m(narrow(hit.pair, false)) + kAlongShapes_m) {
+    lanes.lost |= 1U << lane;
+  }
 }
 
 // Keeps the hits that are not proven apart along the direction that separates their capsules;
 // returns their number. Tries the closest pair of each cell first.
-int TubePair::left_open(unsigned of_batch, int hits) {
+int TubePair::left_open(int hits) {
   Scratch& s = *setting_.scratch;
+  const auto limit_m = [this](const filter::Hit& hit) {
+    return setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)].limit_up;
+  };
   Lanes lanes;
-  std::array<int, kLanes> closest{};
-  for (unsigned lane = 0; lane < kLanes; ++lane) {
-    if ((of_batch >> lane & 1U) == 0) continue;
-    float least_m = std::numeric_limits<float>::infinity();
-    closest[lane] = -1;
-    for (int h = 0; h < hits; ++h) {
-      const filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
-      if ((hit.lanes >> lane & 1U) == 0) continue;
-      const float limit_m = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)].limit_up;
-      const float room_m = hit.distance[lane] - hit.motion_bound[lane] - limit_m;
-      if (room_m >= least_m) continue;
-      least_m = room_m;
+  std::array<int, kLanes> closest;
+  std::array<float, kLanes> least_m;
+  closest.fill(-1);
+  least_m.fill(std::numeric_limits<float>::infinity());
+  for (int h = 0; h < hits; ++h) {
+    const filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
+    for (unsigned lane = 0; lane < kLanes; ++lane) {
+      const float room_m = hit.distance[lane] - hit.motion_bound[lane] - limit_m(hit);
+      if ((hit.lanes >> lane & 1U) == 0 || room_m >= least_m[lane]) continue;
+      least_m[lane] = room_m;
       closest[lane] = h;
     }
+  }
+  const auto side = [&s](MotionTube& tube, int node) -> Lanes::Side {
+    const MotionTube::Place at = tube.place_of(node);
+    if (s.in_stretches) return {at, tube.stretches_of(node)};
+    const auto only = static_cast<int>(at.lane);
+    return {at, {at.block, only, only + 1}};
+  };
+  for (unsigned lane = 0; lane < kLanes; ++lane) {
     if (closest[lane] < 0) continue;
-    const auto side = [&s](MotionTube& tube, int node) -> Lanes::Side {
-      const MotionTube::Place at = tube.place_of(node);
-      if (s.in_stretches) return {at, tube.stretches_of(node)};
-      const auto only = static_cast<int>(at.lane);
-      return {at, {at.block, only, only + 1}};
-    };
     lanes.a[lane] = side(*a_, s.nodes_a[lane]);
     lanes.b[lane] = side(*b_, s.nodes_b[lane]);
     look_along(lanes, s.pairs.of[static_cast<std::size_t>(closest[lane])], lane,
@@ -127,19 +134,18 @@ int TubePair::left_open(unsigned of_batch, int hits) {
   int left = 0;
   for (int h = 0; h < hits; ++h) {
     filter::Hit& hit = s.pairs.of[static_cast<std::size_t>(h)];
-    const float limit_m = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)].limit_up;
     filter::Parted* parted = s.parted[static_cast<std::size_t>(left)].of;
-    for (unsigned lane = 0; lane < kLanes; ++lane) {
-      if ((hit.lanes >> lane & 1U) == 0) continue;
+    for (unsigned open = hit.lanes; open != 0; open &= open - 1) {
+      const auto lane = static_cast<unsigned>(std::countr_zero(open));
       if (closest[lane] == h) {
         parted[lane] = s.parted_closest[lane];
       } else if ((lanes.lost >> lane & 1U) != 0) {
-        parted[lane] = {limit_m, {0.0F, 0.0F}};
+        parted[lane] = {limit_m(hit), {0.0F, 0.0F}};
         continue;
       } else {
         look_along(lanes, hit, lane, parted[lane]);
       }
-      if (parted[lane].distance >= limit_m) hit.lanes &= ~(1U << lane);
+      if (parted[lane].distance >= limit_m(hit)) hit.lanes &= ~(1U << lane);
     }
     if (hit.lanes == 0) continue;
     if (left != h) s.pairs.of[static_cast<std::size_t>(left)] = hit;
@@ -194,7 +200,7 @@ void TubePair::filter(std::span<const Nodes> batch, bool in_stretches) {
   s.side_a = a.side;
   const filter::Kernel& kernel = filter::best_kernel();
   const int found = kernel.near_pairs(a.side, b.side, set.grouped(), lanes, s.pairs.of.data());
-  s.pairs.count = left_open(lanes, found);
+  s.pairs.count = left_open(found);
   s.boxes.count = kernel.near_boxes(a.side, set.all_boxes(), lanes, s.boxes.of.data());
 }
 

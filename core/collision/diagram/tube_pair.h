@@ -103,7 +103,7 @@ class TubePair {
   void look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
                   filter::Parted& parted) const;
   [[nodiscard]] unsigned near_lanes() const;
-  [[nodiscard]] int left_open(unsigned of_batch, int hits);
+  [[nodiscard]] int left_open(int hits);
   [[nodiscard]] double slack_m(const NarrowPair& pair) const;
   [[nodiscard]] PlacedBody placed_a(const NarrowPair& pair, Nodes at) const;
   [[nodiscard]] PlacedBody placed_b(const NarrowPair& pair, Nodes at) const;

@@ -175,13 +175,15 @@ struct Boxes {
 };
 
 // A pair that is undecided in some lanes. distance: lower bound at the configuration. motion_bound:
-// largest decrease of the distance by motion.
+// largest decrease of the distance by motion. direction: from b to a, normal to the planes between
+// which the gap is measured; near_pairs only, if a side moves.
 struct Hit {
   int pair;        // index in Pairs::all or Boxes::all
   int capsule;     // near_boxes only: index in Boxes::capsules
   unsigned lanes;  // bit by lane
   float distance[kLanes];
   float motion_bound[kLanes];
+  float direction[3 * kLanes];
 };
 
 struct Kernel {
@@ -205,7 +207,9 @@ struct Kernel {
   // room for all pairs. A pair is also decided if its sweeps prove it apart.
   int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
   // Bounds the distance of two swept capsules, for each stretch of `a` with each stretch of `b`.
-  Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair);
+  // `direction`: Hit::direction, at the lane of the configuration.
+  Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair,
+                   const float* direction);
   // Likewise for capsules and static boxes. `hits` must have room for all capsules of all boxes.
   int (*near_boxes)(const Side& a, const Boxes& boxes, unsigned lanes, Hit* hits);
 };

@@ -50,27 +50,26 @@ inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   return most;
 }
 
+inline float magnitude(float x) { return x < 0.0F ? -x : x; }
+
 // Covers the rounding of bounds along a direction, and that of the direction and the centers.
 constexpr float kSweptMargin_m = 3e-6F;
 
 template <class F>
-Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
-  const Vec<F> w = minus(same<F>(a.at), same<F>(b.at));
-  const Vec<F> half_a = same<F>(a.at + 3 * kLanes);
-  const Vec<F> half_b = same<F>(b.at + 3 * kLanes);
-  const Vec<F> v = between_axes(w, half_a, half_b, pair);
-  const F length = F::max(F::sqrt(dot(v, v)), F::all(1e-20F));
-  const Vec<F> d = {v.x / length, v.y / length, v.z / length};
-  const F zero = F::all(0.0F);
-  const Vec<F> back = {zero - d.x, zero - d.y, zero - d.z};
-  float own[3 * kLanes];
-  dot(d, w).store(own);
-  F::abs(dot(d, half_a)).store(own + kLanes);
-  F::abs(dot(d, half_b)).store(own + 2 * kLanes);
-  const float of_a = reach_along(a, back);
-  const float of_b = reach_along(b, d);
-  return {own[0] - of_a - of_b - pair.radii_up - kSweptMargin_m,
-          {of_a - own[kLanes], of_b - own[2 * kLanes]}};
+Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair,
+              const float* direction) {
+  const float x = direction[0], y = direction[kLanes], z = direction[2 * kLanes];
+  const auto along = [x, y, z](const float* v) {
+    return x * v[0] + y * v[kLanes] + z * v[2 * kLanes];
+  };
+  const float* half_a = a.at + 3 * kLanes;
+  const float* half_b = b.at + 3 * kLanes;
+  const float apart = x * (a.at[0] - b.at[0]) + y * (a.at[kLanes] - b.at[kLanes]) +
+                      z * (a.at[2 * kLanes] - b.at[2 * kLanes]);
+  const float of_a = reach_along(a, Vec<F>{F::all(-x), F::all(-y), F::all(-z)});
+  const float of_b = reach_along(b, Vec<F>{F::all(x), F::all(y), F::all(z)});
+  return {apart - of_a - of_b - pair.radii_up - kSweptMargin_m,
+          {of_a - magnitude(along(half_a)), of_b - magnitude(along(half_b))}};
 }
 
 // Writes the capsule's ball around all lanes (Spread). The center lies between the first and the
@@ -207,13 +206,16 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
     const F gap = (dot(between, w) - F::abs(along_a) - F::abs(along_b)) / length;
     unsigned close = F::not_at_least(gap, keep);
     if constexpr (kMoving) {
+      const Vec<F> d = {between.x / length, between.y / length, between.z / length};
       if (close != 0 && a.sweeps != nullptr && b.sweeps != nullptr) {
-        const Vec<F> d = {between.x / length, between.y / length, between.z / length};
         const Vec<F> back = {F::all(0.0F) - d.x, F::all(0.0F) - d.y, F::all(0.0F) - d.z};
         const F apart = dot(d, w) - swept_reach(a, pair.a, back, dot(back, ha), l) -
                         swept_reach(b, pair.b, d, dot(d, hb), l);
         close &= F::not_at_least(apart, F::all(pair.limit_up + pair.radii_up + kSweptMargin_m));
       }
+      d.x.store(hit.direction + l);
+      d.y.store(hit.direction + kLanes + l);
+      d.z.store(hit.direction + 2 * kLanes + l);
     }
     near |= close << l;
     (gap - F::all(pair.radii_up)).store(hit.distance + l);
