@@ -66,7 +66,12 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
     if (job.state != JobState::succeeded) {
       ++row.not_succeeded;
       std::cerr << row.workload << ", seed " << row.seed << ", " << row.policy << ": " << job.key
-                << " is " << to_string(job.state) << ' ' << job.detail() << '\n';
+                << " is " << to_string(job.state) << ' ' << job.detail();
+      for (const WaitView& wait : job.waits_on) {
+        std::cerr << "; waits on " << to_string(wait.kind) << ' ' << wait.job << ' ' << wait.arm
+                  << ' ' << wait.detail;
+      }
+      std::cerr << '\n';
     }
     const PlannedJob& known = *own->second;
     if (!job.times.started_at || !job.times.ended_at) continue;

@@ -178,13 +178,14 @@ TEST(Task, WaitsBetweenMotionsWhileTheSpeedOverrideIsZero) {
   EXPECT_EQ(cell.executive().arms().front().state, ArmState::idle);
 }
 
-// y waits for the part. It is in the hand of x, then in no hand, and y can take it.
+// y waits for the part, which stays in the hand of x.
 TEST(Task, GoesOnWithRetriesIfAnotherJobEndsWithTheObjectInItsHand) {
   Tasks cell;
   cell.submit(task("holder", {slide_to("x", 0.0),
                               attach("x_ball"),
                               slide_to("x", 0.5),
                               {"", WaitIoRequest{"ready", true, Duration(2s)}},
+                              detach(),
                               slide_to("x", -1.0)}));
   cell.submit(
       task("late", {slide_to("y", -0.9), retried(attach("y_ball"), 4), slide_to("y", -1.0)}));
