@@ -65,8 +65,8 @@ Problem problem_of(const Cell& cell, const JointElsewhere& elsewhere) {
   detail += is_gripper_joint(cell, elsewhere.joint)
                 ? "; begin there, or move the gripper there first (\"move_to\")"
                 : "; begin there, or give the first waypoint a time above 0 in which the arm "
-                  "may get to it, or let the server move the arm to the start "
-                  "(\"move_to_start\": \"plan\")";
+                  "may get to it, or, in a job without steps, let the server move the "
+                  "arm to the start (\"move_to_start\": \"plan\")";
   return {ProblemKind::invalid, "start-mismatch",
           "/points/0/positions/" + std::to_string(elsewhere.place), std::move(detail), begins};
 }

@@ -107,7 +107,7 @@ test('Cards, the page of the arm and Recovery say what an arm holds', { timeout:
   await counts(page.locator('[data-test=need-right] [data-test=arm-holds]'), 0);
   await page.screenshot(path_for('recovery-dark'));
   await ask(page, 'POST', '/resume');
-  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'idle' }).waitFor();
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'paused' }).waitFor();
 });
 
 test('A page that is opened later shows the same', { timeout: 300_000 }, async () => {

@@ -155,6 +155,6 @@ describe('A job with steps', () => {
   it('continues after a stop at its step', () => {
     const arm = (state: string) => arm_json('left', { state }) as unknown as Arm;
     expect(need_of(arm('stopped'), job(), null).words).toMatch(/^Resume: pick continues from step 3 of 4 \(motion to home\) as soon as/);
-    expect(need_of(arm('idle'), job({ step: 3 }), null)).toEqual({ words: 'pick waits at step 4 of 4 (wait for free = true). No action needed.', resume: false, home: false });
+    expect(need_of(arm('paused'), job({ step: 3 }), null)).toEqual({ words: 'pick waits at step 4 of 4 (wait for free = true). No action needed.', resume: false, home: false });
   });
 });

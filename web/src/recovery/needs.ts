@@ -42,8 +42,10 @@ export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string,
       return job
         ? { words: kWords.resume_job(name, step_in_words(job, true) ?? kWords.share_of_path(Math.round(100 * job.progress))), resume: true, home: false }
         : { words: next ? kWords.resume_next(title_of(next)) : kWords.resume_idle, resume: true, home: false };
-    case 'paused':
-      return { words: kWords.paused(name || kWords.its_job_words), resume: false, home: false };
+    case 'paused': {
+      const step = job && step_in_words(job, true);
+      return { words: step ? kWords.between_steps(name, step) : kWords.paused(name || kWords.its_job_words), resume: false, home: false };
+    }
     case 'moving':
       return { words: is_stopped(job, arm.name) ? kWords.brakes : kWords.moves(name || kWords.its_job_words), resume: false, home: false };
     case 'idle':
