@@ -85,7 +85,7 @@ class FaultRun {
       // Jobs may wait for a part that two hands hold.
       if (now() >= at(plan_.jobs_for) && now() >= next_job_ && tasks_) {
         next_job_ = now() + kTidiesUp;
-        tasks_->tidy_up();
+        tidy_up();
       }
       if (plan_.faulty && now() >= begins_at_) begin_fault();
       operate();
@@ -143,15 +143,20 @@ class FaultRun {
             executive().all_ended());
   }
 
+  // With a fault, the server may not know where an arm is; an operator sees it, and keeps away.
+  void tidy_up() {
+    if (tasks_ && present_.empty()) tasks_->tidy_up();
+  }
+
   void submit() {
     next_job_ = now() + from_seconds(random_.uniform(0.1, 1.6));
     if (witness_->open.size() >= plan_.open_max) {
-      if (tasks_) tasks_->tidy_up();  // jobs may wait for an object that two hands hold
+      tidy_up();  // jobs may wait for an object that two hands hold
       return;
     }
     std::optional<JobRequest> task;
     if (tasks_) tasks_->set_input();
-    if (tasks_ && random_.chance(0.2)) tasks_->tidy_up();
+    if (tasks_ && random_.chance(0.2)) tidy_up();
     if (tasks_ && random_.chance(0.6)) task = tasks_->any();
     JobRequest request = task ? *std::move(task) : jobs_->any();
     const JobRequest copy = request;
