@@ -60,8 +60,8 @@ std::string opens(const Proximity& proximity, Duration own_time, const Cell& cel
   if (link_a && link && cell.is_own(*link_a, *link)) {
     return "both links are of the same arm: change the trajectory to unblock this job";
   }
-  const std::string text = proximity.body_b + " does not move: change the trajectory" +
-                           (link ? "" : ", or move or delete the object,") + " to unblock this job";
+  std::string text = proximity.body_b + " does not move: change the trajectory" +
+                     (link ? "" : ", or move or delete the object,") + " to unblock this job";
   if (own_time > Duration{} || (link_a && link)) return text;
   // For example after a restart, which ends the contact that steps allowed.
   if (!link_a) return text + "; if " + proximity.body_a + " rests there, begin with a detach step";
