@@ -1,4 +1,4 @@
-// Answers requests that change nothing: checks of jobs, and plans to goals.
+// Checks jobs and plans paths to goals for clients, without any change of the state.
 #include <algorithm>
 #include <cstdio>
 #include <limits>

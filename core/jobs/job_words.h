@@ -75,8 +75,8 @@ struct Wait {
   };
   Kind kind;
   std::optional<JobId> job;  // job, predecessor, capacity
-  // arm, stop; holding: the arm that must move too; speed: if it is the arm's override; job: the
-  // other arm that comes too close
+  // arm, stop; holding: the arm that must move too, or that holds too much; speed: if it is the
+  // arm's override; job: the other arm that comes too close
   std::optional<ArmId> arm;
   // job, arm, object: the pair of links that comes too close; predecessor: the same, if this job
   // would end in the path of that job

@@ -1,7 +1,6 @@
 #include "core/jobs/standing.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/jobs/waits.h"
 #include "core/model/promises.h"
@@ -18,21 +17,20 @@ Promises promises_for(const Cell& cell, const Step& step) {
 }  // namespace
 
 std::optional<Wait> speed_wait(const State& state, const Step& step) {
-  const auto wait = [](std::optional<ArmId> arm, std::string detail) {
-    return Wait{.kind = Wait::Kind::speed, .arm = arm, .detail = std::move(detail)};
+  const auto wait = [](std::optional<ArmId> arm, const std::string& whose) {
+    return Wait{.kind = Wait::Kind::speed,
+                .arm = arm,
+                .detail = "the speed override of " + whose + " is 0; raise it to continue"};
   };
-  const auto is_zero = [](const std::string& whose) {
-    return "the speed override of " + whose + " is 0; raise it to continue";
-  };
-  if (state.speed.cell() == 0.0) return wait(std::nullopt, is_zero("the cell"));
+  if (state.speed.cell() == 0.0) return wait(std::nullopt, "the cell");
   for (ArmId arm : step.trajectory->arms()) {
-    const auto name = [&] { return "arm " + state.cell->arm(arm).name; };
-    if (state.speed.arm(arm) == 0.0) return wait(arm, is_zero(name()));
-    if (state.speed.brake(arm) == 0.0) {
-      return wait(arm, name() +
-                           " holds more than its payload permits, so it does not move; let "
-                           "the object go with POST /scene/objects/NAME/detach");
-    }
+    if (state.speed.arm(arm) == 0.0) return wait(arm, "arm " + state.cell->arm(arm).name);
+    if (state.speed.brake(arm) > 0.0) continue;
+    return Wait{.kind = Wait::Kind::holding,
+                .arm = arm,
+                .detail = "arm " + state.cell->arm(arm).name +
+                          " holds more than its payload permits, so it does not move; let the "
+                          "object go with POST /scene/objects/NAME/detach"};
   }
   return std::nullopt;
 }

@@ -9,10 +9,12 @@ namespace armloom {
 // A motion within this trajectory time of its limit is treated as held there.
 inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
-// Returns the wait for a speed override of 0; nullopt if the job's arms may move.
+// Returns the wait for a speed override of 0, or for an arm that holds too much; nullopt if the
+// job's arms may move.
 [[nodiscard]] std::optional<Wait> speed_wait(const State& state, const Step& step);
 // Returns the wait for what keeps the job's arms at rest until an operator acts: a stop, another
-// arm whose position is not known, or a speed override of 0. nullopt if there is none.
+// arm whose position is not known, what arms hold, or a speed override of 0. nullopt if there is
+// none.
 [[nodiscard]] std::optional<Wait> operator_wait(const State& state, const Step& step);
 // Returns what the job waits for if it has not started and JobTerms::start_when does not hold.
 [[nodiscard]] std::optional<Wait> signal_wait(const State& state, const Step& step);

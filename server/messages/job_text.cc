@@ -49,7 +49,7 @@ std::string waited_for(const Schema& wait, const Present& now = {}) {
     return (arm.empty() ? std::string("a stopped arm") : "arm " + arm) + " to be resumed";
   }
   if (kind == "speed") return "the speed override to be raised";
-  if (kind == "holding") return "arm " + text_at(wait, "arm") + " to let go of what both hold";
+  if (kind == "holding") return "an object to be let go";
   if (kind == "io") return "signal " + text_at(wait, "id");
   if (kind == "predecessor") return blocker_of(wait) + " to end first";
   if (kind == "capacity")

@@ -93,7 +93,7 @@ TEST(Payload, AnArmThatHoldsTooMuchDoesNotMoveUntilItLetsGo) {
   EXPECT_DOUBLE_EQ(x_of(cell).effective_speed_override, 0.0);
   const JobView job = cell.job("away");
   ASSERT_EQ(job.waits_on.size(), 1U);
-  EXPECT_EQ(job.waits_on.front().kind, Wait::Kind::speed);
+  EXPECT_EQ(job.waits_on.front().kind, Wait::Kind::holding);
   EXPECT_THAT(job.waits_on.front().detail, HasSubstr("x holds more than its payload permits"));
   EXPECT_FALSE(job.times.started_at);
   ASSERT_TRUE(cell.executive().detach("part"));

@@ -644,7 +644,7 @@ export const kText = {
   },
 
   io: {
-    none: 'This cell has no inputs or outputs. To add some, define "io" in the cell file.',
+    none: 'This cell has no inputs or outputs. Add the member "io" to the cell file.',
     hint: 'Inputs and outputs as seen from the server. Signals of a device show what the device reported last.',
     past: 'Past signals cannot be set.',
     simulated: (direction: string) => `${direction}, simulated`,
@@ -908,7 +908,7 @@ export const kText = {
     short_speed: 'speed override is 0 %',
     for_action: (detail: string) => (detail === '' ? 'waits for an action of the job' : detail),
     short_action: 'waits for an action',
-    short_holding: (arm: string) => `holds an object together with ${arm}`,
+    short_holding: 'an object must be let go first',
     for_signal: (name: string, detail: string) => (detail === '' ? `waits for the signal ${name}` : detail),
     past: (words: string, duration: string) => `${words} (${duration})`,
     was_waiting: 'waited',

@@ -196,7 +196,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'guard': return words.short_guard;
     case 'speed': return words.short_speed;
     case 'io': return words.short_for(shown_name(first.id ?? ''));
-    case 'holding': return words.short_holding(shown_name(first.arm ?? ''));
+    case 'holding': return words.short_holding;
     case 'action': return first.detail === undefined ? words.short_action : shown_text(first.detail);
   }
 }
