@@ -81,7 +81,8 @@ struct State {
   [[nodiscard]] bool is_judged(const Step& step) const {
     const Judgement& found = step.judgement();
     if (found.at != version()) return false;
-    return !found.in_turn_after || lanes.goes_before(*found.in_turn_after, step.id);
+    return !found.in_turn || (lanes.arrivals() == found.in_turn->arrivals &&
+                              lanes.goes_before(found.in_turn->after, step.id));
   }
 
  private:

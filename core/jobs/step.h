@@ -27,8 +27,13 @@ namespace armloom {
 struct Judgement {
   Version at = 0;  // zero: not checked yet
   std::vector<Wait> found = {};
-  // The result is void once that step no longer precedes this job in the safe sequence.
-  std::optional<StepId> in_turn_after = {};
+  // The result is void once that step no longer precedes this job in the safe sequence, or once the
+  // sequence has got a leg that may let this job go first.
+  struct InTurn {
+    StepId after;
+    std::uint64_t arrivals;  // Lanes::arrivals() then
+  };
+  std::optional<InTurn> in_turn = {};
 };
 // A rest on the path: after a stop, or until other motions have passed.
 struct Pause {

@@ -98,7 +98,10 @@ void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outl
     wait.own_time = step.trajectory->duration();
     wait.other_time = outlook.block->time;
   }
-  stay_queued(state, step, {state->version(), {std::move(wait)}, outlook.first});
+  stay_queued(state, step,
+              {state->version(),
+               {std::move(wait)},
+               Judgement::InTurn{*outlook.first, state->lanes.arrivals()}});
 }
 
 void refuse(Transitions& state, const Step& step, const Verdict& verdict) {

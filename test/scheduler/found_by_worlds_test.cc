@@ -230,5 +230,30 @@ INSTANTIATE_TEST_SUITE_P(Policies, InTurn,
                                            "earliest_start"),
                          [](const auto& policy) { return policy.param; });
 
+class ReopenedTurn : public ::testing::TestWithParam<std::string> {};
+
+// `halfway` ends in the path of `passes`, so it waits for that job, whose arm is stopped. With
+// `back`, its arm does not stay there.
+TEST_P(ReopenedTurn, WaitingJobIsCheckedAgainWhenItsArmGetsAJobThatMovesItAway) {
+  constexpr ArmId a{0}, b{1};
+  IdealArms arms(one_joint_arms(2), std::move(*make_policy(GetParam(), *one_joint_arms(2))),
+                 Crossings({{a, 0.4, 0.6, b, 0.45, 0.55}}), [](JobId) { return Habits{}; });
+  arms.input(Stop{{a}, "operator"});
+  const JobId passes = arms.submit({JobId{0}, move({0}, 0, 1, 2s), {.backlog_timeout = 100s}});
+  const JobId halfway = arms.submit({JobId{0}, move({1}, 0, 0.5, 2s), {.backlog_timeout = 100s}});
+  arms.run_until(at(5s));
+  EXPECT_EQ(arms.state(halfway), JobState::queued);
+  const JobId back = arms.submit({JobId{0}, move({1}, 0.5, 0, 2s), {.backlog_timeout = 100s}});
+  arms.run_until(at(15s));
+  EXPECT_EQ(arms.state(halfway), JobState::succeeded);
+  EXPECT_EQ(arms.state(back), JobState::succeeded);
+  arms.input(Resume{{a}});
+  arms.run();
+  EXPECT_EQ(arms.state(passes), JobState::succeeded);
+}
+
+INSTANTIATE_TEST_SUITE_P(Policies, ReopenedTurn, ::testing::ValuesIn(policy_names()),
+                         [](const auto& policy) { return policy.param; });
+
 }  // namespace
 }  // namespace armloom
