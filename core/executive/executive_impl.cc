@@ -22,7 +22,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                       Observer& observer)
     : cell_(checked.cell),
       scheduler_(cell_, std::move(checked.policy), cell_->home(), options.first_job),
-      jobs_(scheduler_, tasks_, {options.ended_kept, options.ended_bytes_max}),
+      jobs_(scheduler_, tasks_, {options.ended_kept, options.ended_bytes_max}, options.first_job),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { clock_.note(input); },

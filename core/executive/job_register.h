@@ -35,9 +35,12 @@ class JobRegister final : public JobNames {
     std::size_t jobs;
     std::size_t bytes;  // of trajectories; the job that ended last always stays
   };
-  // `scheduler` and `tasks` outlive this object.
-  JobRegister(const Scheduler& scheduler, const TaskBook& tasks, EndedMax ended_max)
-      : scheduler_(scheduler), tasks_(tasks), ended_max_(ended_max) {}
+  // `scheduler` and `tasks` outlive this object. `first_job`: of this session.
+  JobRegister(const Scheduler& scheduler, const TaskBook& tasks, EndedMax ended_max,
+              JobId first_job = JobId{1})
+      : scheduler_(scheduler), tasks_(tasks), ended_max_(ended_max) {
+    next_own_.fill(first_job.value());
+  }
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
@@ -67,7 +70,8 @@ class JobRegister final : public JobNames {
 
   // Returns a key for a job without one: "job-17", or "job-17.2" if that is taken.
   [[nodiscard]] std::string free_key(JobId id) const;
-  // Returns the next key for a server-initiated job.
+  // Returns the next key for a server-initiated job. Its number is at most that of the job. So no
+  // later session that uses the same store returns it again.
   [[nodiscard]] std::string own_key(OwnJob kind);
 
   // Return an empty string for a forgotten job.
@@ -86,7 +90,7 @@ class JobRegister final : public JobNames {
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, JobLabel> labels_;
   std::deque<JobId> ended_;
-  std::array<std::uint64_t, 2> next_own_ = {1, 1};  // by OwnJob
+  std::array<std::uint64_t, 2> next_own_;  // by OwnJob
 };
 
 }  // namespace armloom

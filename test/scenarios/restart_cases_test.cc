@@ -199,7 +199,7 @@ TEST(Restore, KeepsServerInitiatedJobsFromReusingIds) {
   jobs.back().request.after = {"elsewhere"};
   for (const auto& answer : cell.executive().restore(std::move(jobs))) ASSERT_TRUE(answer);
   cell.run_to_the_end();
-  EXPECT_EQ(cell.job("move-to-start-1").id, JobId{20});
+  EXPECT_EQ(cell.job("move-to-start-20").id, JobId{20});
   EXPECT_EQ(cell.job("elsewhere").id, JobId{7});
   EXPECT_EQ(cell.job("elsewhere").state, JobState::succeeded);
   EXPECT_EQ(cell.job("next").id, JobId{8});
