@@ -23,7 +23,7 @@ class MemberPart : public AnyPart {
       access_.fill_value(out, [&](void* value) { format_->read_any(node, value); });
     };
     if (text_.need == Need::required) {
-      object.required(text_.key, take);
+      object.required(text_.key, take, text_.give);
     } else {
       object.optional(text_.key, take);
     }

@@ -18,7 +18,8 @@ struct MemberText {
   std::string key;
   std::string text;  // one or two sentences
   Need need = Need::optional;
-  std::optional<Schema> stated;  // default, if not that of a new object
+  std::optional<Schema> stated = {};  // default, if not that of a new object
+  std::string give = {};              // if required: what to give, for the error that it is missing
 };
 
 // Adds the member to the schema of an object. `fallback`: value of an absent member, if any.

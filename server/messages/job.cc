@@ -251,7 +251,8 @@ FormatPtr<JobView> job_format() {
                 output_if("step", &View::step, count(),
                           "Only of a job with steps: index of the present step"),
                 output_only("waits_on", &View::waits_on, list(wait_format()),
-                            "Reasons to wait; empty if the job does not wait"),
+                            "Reasons to wait; empty if the job does not wait. Of a job that has "
+                            "expired: what it waited for"),
                 inlined(&View::ways, ways_part()),
                 output_if("starvation", &View::starvation, starvation_format(),
                           "Present if the job starves: it has waited longer than `aging_s` while "

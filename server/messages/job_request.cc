@@ -268,9 +268,14 @@ FormatPtr<JobRequest> plain_job_format() {
                   unless("alternatives",
                          unless("move_to",
                                 unless("goal",
-                                       unless("args", required("trajectory", &Request::trajectory,
-                                                               trajectory_request_format(),
-                                                               "Motion of the job"))))))),
+                                       unless("args", member({.key = "trajectory",
+                                                              .text = "Motion of the job",
+                                                              .need = Need::required,
+                                                              .give = "motion of the job, or "
+                                                                      "\"move_to\", \"steps\" or "
+                                                                      "\"alternatives\" instead"},
+                                                             &Request::trajectory,
+                                                             trajectory_request_format()))))))),
           field("steps", &Request::steps, steps_format(),
                 "Instead of `trajectory`: steps that are executed in this order. Other jobs of the "
                 "same arms wait until the last motion has ended"),

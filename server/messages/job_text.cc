@@ -216,18 +216,33 @@ std::string braking_text(const Schema& job, const Present& now) {
                         : " It ends when its controller reports again." + absent;
 }
 
+std::size_t step_index(const Schema& job) {
+  return static_cast<std::size_t>(number_at(job, "step").value_or(0.0));
+}
+
+// Returns true if the present step of a job with steps is no motion.
+bool is_between_motions(const Schema& job) {
+  const Schema& steps = list_at(job, "steps");
+  if (step_index(job) >= steps.size()) return false;
+  const std::string kind = text_at(steps[step_index(job)], "kind");
+  return kind != "trajectory" && kind != "move_to";
+}
+
 std::string moving_text(const Schema& job, const Present& now) {
   const double left =
       (1.0 - number_at(job, "progress").value_or(0.0)) * number_at(job, "duration_s").value_or(0.0);
   std::string text =
       " has run" + since(job, "started_s", now) + " and is " + percent(job) + " done.";
   if (flag_at(job, "stopping")) return text + braking_text(job, now);
-  const std::size_t steps = list_at(job, "steps").size();
-  if (text_at(job, "state") == "paused" && steps > 0 &&
-      (waits_on(job, "action") || waits_on(job, "io"))) {
-    const auto at = static_cast<std::size_t>(number_at(job, "step").value_or(0.0));
-    return " is at step " + std::to_string(at + 1) + " of " + std::to_string(steps) + ": " +
-           text_at(list_at(job, "waits_on").front(), "detail") + "." + remedy_of(job, now);
+  if (text_at(job, "state") == "paused" && is_between_motions(job)) {
+    const Schema& steps = list_at(job, "steps");
+    const std::size_t at = step_index(job);
+    text = " is at step " + std::to_string(at + 1) + " of " + std::to_string(steps.size());
+    if (!waits_on(job, "action") && !waits_on(job, "io")) {
+      return text + ", between its motions." + waits_text(job, now) + remedy_of(job, now);
+    }
+    return text + ": " + text_at(list_at(job, "waits_on").front(), "detail") + "." +
+           remedy_of(job, now);
   }
   if (text_at(job, "state") == "paused") {
     return " is paused on its path at " + percent(job) + "." + waits_text(job, now) +

@@ -159,7 +159,7 @@ export interface components {
             steps?: components["schemas"]["Step"][];
             /** @description Only of a job with steps: index of the present step */
             step?: number;
-            /** @description Reasons to wait; empty if the job does not wait */
+            /** @description Reasons to wait; empty if the job does not wait. Of a job that has expired: what it waited for */
             waits_on: components["schemas"]["Wait"][];
             /** @description Candidate arms; `arms` has the selected arm, or the most likely one while the job waits */
             alternatives?: string[];
