@@ -253,8 +253,9 @@ inline bool near_balls(const Side& a, const Side& b, float limit_up) {
   return near != 0;
 }
 
+// Copies both sides, so that their pointers stay in registers: `hits` cannot alias them.
 template <class F, bool kMoving>
-int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes, Hit* hits) {
+int near_pairs_of(const Side a, const Side b, const Pairs& of, unsigned lanes, Hit* hits) {
   const Pair* pairs = of.all;
   const Groups& groups = of.groups;
   int found = 0;
