@@ -52,7 +52,7 @@ inline Vec<F> from_box(const StaticBox& box, const Vec<F>& p, const Vec<F>& h) {
 template <class F>
 inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const StaticBox& box,
                          Hit& hit) {
-  const float* at = a.capsules + capsule.capsule * 6 * kLanes;
+  const float* at = a.capsules + capsule.capsule * (6 * kLanes);
   const F zero = F::all(0.0F);
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
@@ -63,7 +63,7 @@ inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const Stati
     const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
     F p[3], h[3];
     F gap = F::all(-1e9F);
-    for (int i = 0; i < 3; ++i) {
+    for (long i = 0; i < 3; ++i) {
       const Vec<F> axis = {F::all(box.R[3 * i]), F::all(box.R[3 * i + 1]),
                            F::all(box.R[3 * i + 2])};
       p[i] = dot(axis, w);
@@ -121,7 +121,7 @@ int near_boxes(const Side& side, const Boxes& boxes, unsigned lanes, Hit* hits) 
       if (!near.has(of.capsule)) continue;
       next->capsule = c;
       const float* more = a.motion_bound == nullptr ? nullptr : a.motion_bound + of.row * kLanes;
-      const float* center = a.capsules + of.capsule * 6 * kLanes;
+      const float* center = a.capsules + of.capsule * (6 * kLanes);
       next = near_ball<F>(box, center, of.ball_up, more) ? next + 1 : next;
     }
     for (const Hit* listed = hits + found; listed < next; ++listed) {
