@@ -89,7 +89,7 @@ struct Results {
     std::vector<int> rows;
     for (const filter::Capsule& capsule : arm.capsules) rows.push_back(capsule.motion_bounds_begin);
     std::vector<float> ball(4 * kLanes);
-    const int spread_size = filter::spread_size(static_cast<int>(arm.capsules.size()));
+    const long spread_size = filter::spread_size(static_cast<int>(arm.capsules.size()));
     spread.resize(static_cast<std::size_t>(4 * spread_size));
     kernel.enclose(arm.view(), capsules.data(), motion_bounds.data(), rows.data(), ball.data(),
                    spread.data());

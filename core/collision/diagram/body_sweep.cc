@@ -30,12 +30,12 @@ struct MovingGroup {
 // Returns true if every pair of convex pieces of the two groups is proven to keep limit_m.
 bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingGroup& a,
                        const MovingGroup& b, double limit_m, double enough_m) {
-  PlacedConvexShape own_a;
-  PlacedConvexShape own_b;
+  PlacedConvexShape at_a;
+  PlacedConvexShape at_b;
   for (std::size_t i = a.group.begin(); i < a.group.end(); ++i) {
-    const PlacedConvexShape& at_a = a.group.placed(i, own_a);
+    a.group.place(i, at_a);
     for (std::size_t j = b.group.begin(); j < b.group.end(); ++j) {
-      const PlacedConvexShape& at_b = b.group.placed(j, own_b);
+      b.group.place(j, at_b);
       if (!shapes_keep_apart({shapes[i], at_a, a.axes}, {shapes[j], at_b, b.axes}, limit_m,
                              enough_m)) {
         return false;

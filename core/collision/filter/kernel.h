@@ -12,7 +12,7 @@
 
 namespace armloom::filter {
 
-inline constexpr int kLanes = 8;
+inline constexpr long kLanes = 8;  // long, so that offsets of pointers are not computed in int
 
 // A movable joint and its frame, whose z is the joint's axis. The frame's pose is X_parent * C *
 // motion(multiplier * q[joint] + offset).
@@ -81,9 +81,9 @@ inline constexpr int kSweep = 7;
 // `size` is a multiple of kLanes. If `balls` is null, every capsule may be anywhere.
 struct Spread {
   const float* balls;
-  int size;
+  long size;
 };
-constexpr int spread_size(int capsules) { return (capsules + kLanes - 1) / kLanes * kLanes; }
+constexpr long spread_size(long capsules) { return (capsules + kLanes - 1) / kLanes * kLanes; }
 
 // One side of a comparison: capsules with known motion bounds.
 struct Side {

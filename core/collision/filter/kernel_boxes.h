@@ -8,17 +8,19 @@
 namespace armloom::filter {
 namespace {
 
-// Returns true if the box may be too close to the ball around a side.
+// Returns true if the box may be too close to a ball in any lane. Adds `more` to the ball's
+// radius_up unless it is null.
 template <class F>
-inline bool near_ball(const Side& side, const StaticBox& box) {
-  if (side.ball == nullptr) return true;
+inline bool near_ball(const StaticBox& box, const float* center, float radius_up,
+                      const float* more) {
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
-    const Vec<F> w = {F::load(side.ball + l) - F::all(box.center[0]),
-                      F::load(side.ball + kLanes + l) - F::all(box.center[1]),
-                      F::load(side.ball + 2 * kLanes + l) - F::all(box.center[2])};
-    const F reach = (F::load(side.ball + 3 * kLanes + l) + F::all(box.ball_up + box.limit_up)) *
-                    F::all(1.00001F);
+    const Vec<F> w = {F::load(center + l) - F::all(box.center[0]),
+                      F::load(center + kLanes + l) - F::all(box.center[1]),
+                      F::load(center + 2 * kLanes + l) - F::all(box.center[2])};
+    F reach = F::all(box.ball_up + box.limit_up + radius_up);
+    if (more != nullptr) reach = reach + F::load(more + l);
+    reach = reach * F::all(1.00001F);
     near |= F::not_at_least(dot(w, w), reach * reach);
   }
   return near != 0;
@@ -44,13 +46,13 @@ inline Vec<F> from_box(const StaticBox& box, const Vec<F>& p, const Vec<F>& h) {
   return minus(x, nearest);
 }
 
-// Compares a capsule with a box: by the balls around both, by the largest gap along the box's axes,
-// then along the direction between their nearest points. Each gap is a lower bound of the distance.
-// A gap along a direction has more roundings than one along an axis, so it has the margin twice.
+// Compares a capsule with a box: by the largest gap along the box's axes, then along the direction
+// between their nearest points. Each gap is a lower bound of the distance. A gap along a direction
+// has more roundings than one along an axis, so it has the margin twice.
 template <class F>
 inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const StaticBox& box,
                          Hit& hit) {
-  const float* at = a.capsules + capsule.capsule * 6 * kLanes;
+  const float* at = a.capsules + capsule.capsule * (6 * kLanes);
   const F zero = F::all(0.0F);
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
@@ -58,13 +60,10 @@ inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const Stati
     w = {w.x - F::all(box.center[0]), w.y - F::all(box.center[1]), w.z - F::all(box.center[2])};
     const F motion_bound =
         a.motion_bound == nullptr ? zero : F::load(a.motion_bound + capsule.row * kLanes + l);
-    const F balls =
-        (F::all(box.ball_up + capsule.ball_up + box.limit_up) + motion_bound) * F::all(1.00001F);
-    if (F::not_at_least(dot(w, w), balls * balls) == 0) continue;
     const Vec<F> half = Vec<F>::load(at + 3 * kLanes + l);
     F p[3], h[3];
     F gap = F::all(-1e9F);
-    for (int i = 0; i < 3; ++i) {
+    for (long i = 0; i < 3; ++i) {
       const Vec<F> axis = {F::all(box.R[3 * i]), F::all(box.R[3 * i + 1]),
                            F::all(box.R[3 * i + 2])};
       p[i] = dot(axis, w);
@@ -106,16 +105,27 @@ inline unsigned near_box(const Side& a, const BoxedCapsule& capsule, const Stati
 }
 
 template <class F>
-int near_boxes(const Side& a, const Boxes& boxes, unsigned lanes, Hit* hits) {
+int near_boxes(const Side& side, const Boxes& boxes, unsigned lanes, Hit* hits) {
+  const Side a = side;  // see near_pairs_of()
   int found = 0;
   for (int b = 0; b < boxes.count; ++b) {
     const StaticBox& box = boxes.all[b];
-    if (!near_ball<F>(a, box)) continue;
+    if (a.ball != nullptr && !near_ball<F>(box, a.ball, 0.0F, a.ball + 3 * kLanes)) continue;
     const NearCapsules near = near_capsules<F>(a.spread, box.center, box.center + 1, box.center + 2,
                                                box.ball_up + box.limit_up);
     if (near.bits == 0) continue;
+    // First lists the capsules whose balls are near, without a branch that is hard to predict.
+    Hit* next = hits + found;
     for (int c = box.begin; c < box.end; ++c) {
-      if (!near.has(boxes.capsules[c].capsule)) continue;
+      const BoxedCapsule& of = boxes.capsules[c];
+      if (!near.has(of.capsule)) continue;
+      next->capsule = c;
+      const float* more = a.motion_bound == nullptr ? nullptr : a.motion_bound + of.row * kLanes;
+      const float* center = a.capsules + of.capsule * (6 * kLanes);
+      next = near_ball<F>(box, center, of.ball_up, more) ? next + 1 : next;
+    }
+    for (const Hit* listed = hits + found; listed < next; ++listed) {
+      const int c = listed->capsule;
       Hit& hit = hits[found];
       hit.pair = b;
       hit.capsule = c;

@@ -73,7 +73,7 @@ inline void place_frame(const Frame& frame, const double* parent, const double* 
         c[6 + i] = p[6 + i] * cosine - p[3 + i] * sine;
       }
     } else {
-      for (int column = 0; column < 3; ++column) turn(p, frame.C + 3 * column, c + 3 * column);
+      for (long column = 0; column < 3; ++column) turn(p, frame.C + 3 * column, c + 3 * column);
     }
     turn(p, frame.C + 9, c + 9);
     for (int i = 0; i < 3; ++i) c[9 + i] = c[9 + i] + p[9 + i];
@@ -98,9 +98,9 @@ template <class D>
 void place(const ArmKinematics& kinematics, const double* q, const Placed& out) {
   for (int f = 0; f < kinematics.frame_count; ++f) {
     const Frame& frame = kinematics.frames[f];
-    double* X = out.frames + f * 12 * kLanes;
-    const double* parent = frame.parent < 0 ? nullptr : out.frames + frame.parent * 12 * kLanes;
-    float* axis = out.axes + f * 6 * kLanes;
+    double* X = out.frames + f * (12 * kLanes);
+    const double* parent = frame.parent < 0 ? nullptr : out.frames + frame.parent * (12 * kLanes);
+    float* axis = out.axes + f * (6 * kLanes);
     for (int l = 0; l < kLanes; l += D::kLanes) {
       place_frame<D>(frame, parent, q, l, X);
       for (int i = 0; i < 3; ++i) {
@@ -111,13 +111,13 @@ void place(const ArmKinematics& kinematics, const double* q, const Placed& out) 
   }
   for (int c = 0; c < kinematics.capsule_count; ++c) {
     const Capsule& capsule = kinematics.capsules[c];
-    float* to = out.capsules + c * 6 * kLanes;
+    float* to = out.capsules + c * (6 * kLanes);
     for (int l = 0; l < kLanes; l += D::kLanes) {
       D center[3] = {D::all(capsule.center[0]), D::all(capsule.center[1]),
                      D::all(capsule.center[2])};
       D half[3] = {D::all(capsule.half[0]), D::all(capsule.half[1]), D::all(capsule.half[2])};
       if (capsule.frame >= 0) {
-        const double* X = out.frames + capsule.frame * 12 * kLanes + l;
+        const double* X = out.frames + capsule.frame * (12 * kLanes) + l;
         D R[9];
         for (int i = 0; i < 9; ++i) R[i] = D::load(X + i * kLanes);
         turn(R, capsule.center, center);
@@ -195,7 +195,7 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
     const F extra = F::all(capsule.radius_up + 2e-6F);
     const F half_one = F::all(0.5F);
     for (int l = 0; l < kLanes; l += F::kLanes) {
-      const Vec<F> center = Vec<F>::load(at.capsules + c * 6 * kLanes + l);
+      const Vec<F> center = Vec<F>::load(at.capsules + c * (6 * kLanes) + l);
       const Vec<F> half = Vec<F>::load(at.capsules + (c * 6 + 3) * kLanes + l);
       F sum = F::all(0.0F);
       SweepSums<F> sweep;
@@ -211,7 +211,7 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
           sweep.add(axis, F::all(0.0F) - drift);
           sweep.off = sweep.off + loose * F::all(1.0001F);
         } else {
-          const Vec<F> origin = Vec<F>::load(at.axes + f * 6 * kLanes + l);
+          const Vec<F> origin = Vec<F>::load(at.axes + f * (6 * kLanes) + l);
           const Vec<F> u = cross(minus(center, origin), axis);
           const Vec<F> v = cross(half, axis);
           const F uv = F::abs(dot(u, v));
@@ -231,7 +231,7 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
       sweep.off = sweep.off + half_one * F::all(capsule.radius_up) * turned * turned +
                   turned * (F::all(4e-6F) + F::all(1e-6F) * size);
-      sweep.store(out.sweeps + c * kSweep * kLanes + l);
+      sweep.store(out.sweeps + c * (kSweep * kLanes) + l);
     }
   }
 }

@@ -50,8 +50,6 @@ inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   return most;
 }
 
-inline float magnitude(float x) { return x < 0.0F ? -x : x; }
-
 // Covers the rounding of bounds along a direction, and that of the direction and the centers.
 constexpr float kSweptMargin_m = 3e-6F;
 
@@ -59,8 +57,9 @@ template <class F>
 Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair,
               const float* direction) {
   const float x = direction[0], y = direction[kLanes], z = direction[2 * kLanes];
-  const auto along = [x, y, z](const float* v) {
-    return x * v[0] + y * v[kLanes] + z * v[2 * kLanes];
+  const auto magnitude_along = [x, y, z](const float* v) {
+    const float along = x * v[0] + y * v[kLanes] + z * v[2 * kLanes];
+    return along < 0.0F ? -along : along;
   };
   const float* half_a = a.at + 3 * kLanes;
   const float* half_b = b.at + 3 * kLanes;
@@ -69,14 +68,14 @@ Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair,
   const float of_a = reach_along(a, Vec<F>{F::all(-x), F::all(-y), F::all(-z)});
   const float of_b = reach_along(b, Vec<F>{F::all(x), F::all(y), F::all(z)});
   return {apart - of_a - of_b - pair.radii_up - kSweptMargin_m,
-          {of_a - magnitude(along(half_a)), of_b - magnitude(along(half_b))}};
+          {of_a - magnitude_along(half_a), of_b - magnitude_along(half_b)}};
 }
 
 // Writes the capsule's ball around all lanes (Spread). The center lies between the first and the
 // last lane. far: [kLanes], distance of the capsule from there in each lane.
 template <class F>
 inline void spread_capsule(const float* capsule, float ball_up, const float* motion_bound,
-                           float* ball, int size) {
+                           float* ball, long size) {
   float center[3];
   for (int i = 0; i < 3; ++i) {
     center[i] = 0.5F * (capsule[i * kLanes] + capsule[i * kLanes + kLanes - 1]);
@@ -103,13 +102,13 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;
   }
-  const int size = spread_size(kinematics.capsule_count);
+  const long size = spread_size(kinematics.capsule_count);
   for (int c = 0; c < size; ++c) {
     if (c >= kinematics.capsule_count) {  // no capsule: far away
       for (int i = 0; i < 4; ++i) spread[i * size + c] = i == 3 ? 0.0F : 1e9F;
       continue;
     }
-    spread_capsule<F>(capsules + c * 6 * kLanes, kinematics.capsules[c].ball_up,
+    spread_capsule<F>(capsules + c * (6 * kLanes), kinematics.capsules[c].ball_up,
                       motion_bound == nullptr ? nullptr : motion_bound + rows[c] * kLanes,
                       spread + c, size);
   }
@@ -117,7 +116,7 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
     Vec<F> low = Vec<F>::load(capsules + l);
     Vec<F> high = low;
     for (int c = 1; c < kinematics.capsule_count; ++c) {
-      const Vec<F> p = Vec<F>::load(capsules + c * 6 * kLanes + l);
+      const Vec<F> p = Vec<F>::load(capsules + c * (6 * kLanes) + l);
       low = {F::min(low.x, p.x), F::min(low.y, p.y), F::min(low.z, p.z)};
       high = {F::max(high.x, p.x), F::max(high.y, p.y), F::max(high.z, p.z)};
     }
@@ -126,7 +125,7 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
                            (low.z + high.z) * half};
     F radius = F::all(0.0F);
     for (int c = 0; c < kinematics.capsule_count; ++c) {
-      const Vec<F> w = minus(Vec<F>::load(capsules + c * 6 * kLanes + l), center);
+      const Vec<F> w = minus(Vec<F>::load(capsules + c * (6 * kLanes) + l), center);
       F far = F::sqrt(dot(w, w)) * F::all(1.00001F) + F::all(kinematics.capsules[c].ball_up);
       if (motion_bound != nullptr) far = far + F::load(motion_bound + rows[c] * kLanes + l);
       radius = F::max(radius, far);
@@ -149,7 +148,7 @@ inline NearCapsules near_capsules(const Spread& spread, const float* x, const fl
                                   const float* z, float reach_up) {
   NearCapsules near;
   if (spread.balls == nullptr) return near;
-  const int size = spread.size < 64 ? spread.size : 64;
+  const long size = spread.size < 64 ? spread.size : 64;
   near.bits = 0;
   for (int c = 0; c < size; c += F::kLanes) {
     const float* ball = spread.balls + c;
@@ -166,7 +165,7 @@ inline NearCapsules near_capsules(const Spread& spread, const float* x, const fl
 // moves. `along`: d . half axis.
 template <class F>
 inline F swept_reach(const Side& side, int capsule, const Vec<F>& d, F along, int l) {
-  const float* sweep = side.sweeps + capsule * kSweep * kLanes + l;
+  const float* sweep = side.sweeps + capsule * (kSweep * kLanes) + l;
   const F ahead = F::abs(dot(d, Vec<F>::load(sweep))) + along;
   const F behind = F::abs(dot(d, Vec<F>::load(sweep + 3 * kLanes))) - along;
   return F::max(ahead, behind) + F::load(sweep + 6 * kLanes);
@@ -175,8 +174,8 @@ inline F swept_reach(const Side& side, int capsule, const Vec<F>& d, F along, in
 // Returns the lanes in which the pair is undecided. Fills `hit` for these lanes.
 template <class F, bool kMoving>
 inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
-  const float* at_a = a.capsules + pair.a * 6 * kLanes;
-  const float* at_b = b.capsules + pair.b * 6 * kLanes;
+  const float* at_a = a.capsules + pair.a * (6 * kLanes);
+  const float* at_b = b.capsules + pair.b * (6 * kLanes);
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at_a + l), Vec<F>::load(at_b + l));
@@ -228,7 +227,7 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
 // side's ball.
 template <class F, bool kMoving>
 inline bool near_ball(const Side& own, const Side& other, const Group& group) {
-  const float* at = own.capsules + group.capsule * 6 * kLanes;
+  const float* at = own.capsules + group.capsule * (6 * kLanes);
   unsigned near = 0;
   for (int l = 0; l < kLanes; l += F::kLanes) {
     const Vec<F> w = minus(Vec<F>::load(at + l), Vec<F>::load(other.ball + l));
@@ -253,8 +252,9 @@ inline bool near_balls(const Side& a, const Side& b, float limit_up) {
   return near != 0;
 }
 
+// Copies both sides, so that their pointers stay in registers: `hits` cannot alias them.
 template <class F, bool kMoving>
-int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes, Hit* hits) {
+int near_pairs_of(const Side a, const Side b, const Pairs& of, unsigned lanes, Hit* hits) {
   const Pair* pairs = of.all;
   const Groups& groups = of.groups;
   int found = 0;
@@ -286,7 +286,7 @@ int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes,
     if (!near) continue;
     NearCapsules of_a;
     if (groups.of_b) {
-      const float* at = b.capsules + group.capsule * 6 * kLanes;
+      const float* at = b.capsules + group.capsule * (6 * kLanes);
       of_a = near_capsules<F>(a.spread, at, at + kLanes, at + 2 * kLanes,
                               group.limit_up + group.size_up);
     }

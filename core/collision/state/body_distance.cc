@@ -14,15 +14,20 @@ constexpr double kFound = -std::numeric_limits<double>::max();  // below every l
 // mesh, returns the first distance that is small enough to query the surface.
 double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups& a,
                        const ShapeGroups& b, double limit_m) {
+  constexpr std::size_t kAtOnce = 4;  // shapes of b that are placed at once
   const bool pieces = a.are_pieces() || b.are_pieces();
   double smallest = limit_m;
-  PlacedConvexShape own_a;
-  PlacedConvexShape own_b;
-  for (std::size_t i = a.begin(); i < a.end(); ++i) {
-    const PlacedConvexShape& at_a = a.placed(i, own_a);
-    for (std::size_t j = b.begin(); j < b.end(); ++j) {
-      smallest = distance_below(shapes[i], at_a, shapes[j], b.placed(j, own_b), smallest);
-      if (pieces && smallest < std::min(limit_m, kSurfaceWithin_m)) return smallest;
+  PlacedConvexShape at_a;
+  PlacedConvexShape at_b[kAtOnce];
+  for (std::size_t begin = b.begin(); begin < b.end(); begin += kAtOnce) {
+    const std::size_t end = std::min(begin + kAtOnce, b.end());
+    for (std::size_t j = begin; j < end; ++j) b.place(j, at_b[j - begin]);
+    for (std::size_t i = a.begin(); i < a.end(); ++i) {
+      a.place(i, at_a);
+      for (std::size_t j = begin; j < end; ++j) {
+        smallest = distance_below(shapes[i], at_a, shapes[j], at_b[j - begin], smallest);
+        if (pieces && smallest < std::min(limit_m, kSurfaceWithin_m)) return smallest;
+      }
     }
   }
   return smallest;
@@ -33,9 +38,10 @@ double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups
 template <class OfSolids>
 double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                          const PlacedBody& b, double limit_m, const OfSolids& of_solids) {
+  const bool plain = !a.body.has_pieces && !b.body.has_pieces;
   double smallest = limit_m;
-  for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
-    for (ShapeGroups of_b(shapes, b); !of_b.ended(); of_b.next()) {
+  for (ShapeGroups of_a(shapes, a, plain); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b, plain); !of_b.ended(); of_b.next()) {
       const double distance_m = shapes_distance(shapes, of_a, of_b, smallest);
       if (distance_m >= smallest) continue;
       const bool pieces = of_a.are_pieces() || of_b.are_pieces();
@@ -74,9 +80,10 @@ bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes, const Pla
 
 std::size_t limits_kept(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                         const PlacedBody& b, std::span<const double> limits_m) {
+  const bool plain = !a.body.has_pieces && !b.body.has_pieces;
   std::size_t kept = limits_m.size();
-  for (ShapeGroups of_a(shapes, a); !of_a.ended(); of_a.next()) {
-    for (ShapeGroups of_b(shapes, b); !of_b.ended() && kept > 0; of_b.next()) {
+  for (ShapeGroups of_a(shapes, a, plain); !of_a.ended(); of_a.next()) {
+    for (ShapeGroups of_b(shapes, b, plain); !of_b.ended() && kept > 0; of_b.next()) {
       const double distance_m = shapes_distance(shapes, of_a, of_b, limits_m[kept - 1]);
       const bool pieces = of_a.are_pieces() || of_b.are_pieces();
       const bool asks_surfaces = pieces && distance_m < kSurfaceWithin_m;

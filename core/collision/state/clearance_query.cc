@@ -42,6 +42,8 @@ struct ClearanceQuery::Scratch {
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   PlacedCell placed;
+  PairId last{0};                  // pair of the last hit
+  unsigned looked_at = 0;          // lanes in which `last` is decided or in `open`
   std::vector<Open> open;          // undecided pairs of meshes, which take longest
   std::vector<std::size_t> order;  // indices in `open`: deepest overlap of capsules first
   LinkPoses X_WL;
@@ -65,9 +67,12 @@ struct ClearanceQuery::Scratch {
   // also have a pair that overlaps deeply.
   void decide_soon(const PlacedCell::Comparison& c, const filter::Hit& hit, const NarrowPair& pair,
                    unsigned& close) {
+    if (pair.pair != last) looked_at = 0;  // several capsules of one pair may be near
+    last = pair.pair;
     for (std::size_t lane = 0; lane < kStatesAtOnce; ++lane) {
       const unsigned bit = 1U << lane;
-      if ((hit.lanes & ~close & bit) == 0) continue;
+      if ((hit.lanes & ~close & ~looked_at & bit) == 0) continue;
+      looked_at |= bit;
       const Open o{placed.body(c.a, pair.body_a, lane), placed.body(c.b, pair.body_b, lane),
                    pair.limit_m, lane, hit.distance[lane]};
       const bool meshes = o.a.body.has_pieces || o.b.body.has_pieces;
@@ -83,7 +88,7 @@ struct ClearanceQuery::Scratch {
   unsigned too_close(std::span<const Configuration* const> states) {
     placed.place(states);
     const unsigned all = (1U << states.size()) - 1U;
-    unsigned close = 0;
+    unsigned close = looked_at = 0;
     open.clear();
     for (const PlacedCell::Comparison& c : placed.comparisons()) {
       if (close == all) return close;
