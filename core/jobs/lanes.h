@@ -32,7 +32,7 @@ class Lanes {
   [[nodiscard]] bool goes_before(StepId first, StepId other) const {
     return is_stale_ || sequence_.goes_before(first, other);
   }
-  [[nodiscard]] std::uint64_t arrivals() const { return sequence_.arrivals(); }
+  [[nodiscard]] JobId newest() const { return sequence_.newest(); }
   // Returns true if the step is in the sequence, or is none of its legs.
   [[nodiscard]] bool has_place(StepId step, const JobBook& book, const ArmRests& arms);
   // Returns true if the step begins where the steps before it leave its arms.

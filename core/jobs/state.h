@@ -81,7 +81,7 @@ struct State {
   [[nodiscard]] bool is_judged(const Step& step) const {
     const Judgement& found = step.judgement();
     if (found.at != version()) return false;
-    return !found.in_turn || (lanes.arrivals() == found.in_turn->arrivals &&
+    return !found.in_turn || (lanes.newest() == found.in_turn->newest &&
                               lanes.goes_before(found.in_turn->after, step.id));
   }
 

@@ -31,7 +31,7 @@ struct Judgement {
   // sequence has got a leg that may let this job go first.
   struct InTurn {
     StepId after;
-    std::uint64_t arrivals;  // Lanes::arrivals() then
+    JobId newest;  // Lanes::newest() then
   };
   std::optional<InTurn> in_turn = {};
 };

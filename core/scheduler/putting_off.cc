@@ -101,7 +101,7 @@ void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outl
   stay_queued(state, step,
               {state->version(),
                {std::move(wait)},
-               Judgement::InTurn{*outlook.first, state->lanes.arrivals()}});
+               Judgement::InTurn{*outlook.first, state->lanes.newest()}});
 }
 
 void refuse(Transitions& state, const Step& step, const Verdict& verdict) {

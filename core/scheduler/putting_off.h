@@ -18,7 +18,7 @@ void put_off(Transitions& state, const Step& step, std::vector<Wait> waits);
 [[nodiscard]] bool put_off_where_it_stands(Transitions& state, const Step& step);
 // Keeps the job out of the backlog: it waits only for `first`, which must go before it.
 void wait_behind(Transitions& state, const Step& step, JobId first);
-// Does the same for `outlook.first`, but only as Judgement::InTurn says.
+// Does the same for `outlook.first`, until the safe sequence no longer requires it (InTurn).
 void wait_in_turn(Transitions& state, const Step& step, const SafeSequence::Outlook& outlook);
 // If the verdict has a self-collision and the job has not begun, fails the job and returns true.
 [[nodiscard]] bool fails_by_itself(Transitions& state, const Step& step, const Verdict& verdict);

@@ -16,7 +16,7 @@ SafeSequence::SafeSequence(const SafeSequence& other)
       unplaced_(other.unplaced_),
       unplaced_legs_(other.unplaced_legs_),
       apart_(other.apart_),
-      arrivals_(other.arrivals_),
+      newest_(other.newest_),
       tried_(other.tried_),
       asked_(other.asked_) {
   for (Legs* legs : {&sequence_, &unplaced_}) {
@@ -70,7 +70,9 @@ void SafeSequence::add(WaitingLeg waiting) {
   leg.placed = follows(leg);
   for (ArmId arm : leg.arms) unplaced_legs_[arm.index()] += leg.placed ? 0 : 1;
   Legs& legs = leg.placed ? sequence_ : unplaced_;
-  if ((leg.placed ? sequence_.size() : index_.size()) <= kSearched) ++arrivals_;
+  if ((leg.placed ? sequence_.size() : index_.size()) <= kSearched) {
+    newest_ = std::max(newest_, leg.step.job);
+  }
   const StepId step = leg.step;
   legs.push_back(std::move(leg));
   index_.insert_or_assign(step, std::prev(legs.end()));

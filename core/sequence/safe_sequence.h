@@ -93,9 +93,9 @@ class SafeSequence {
   // Returns true if `first` is in the sequence, and `other` comes later or is not in it. Takes time
   // linear in the position of the earlier one.
   [[nodiscard]] bool goes_before(StepId first, StepId other) const;
-  // Counts the legs added since the beginning that a search for another order may use. When it has
-  // grown, a group that had to wait for Outlook::first may perhaps go first.
-  [[nodiscard]] std::uint64_t arrivals() const { return arrivals_; }
+  // Returns the newest job that a search for another order may have used. If it is newer than at
+  // the last after() call, a group that had to wait for Outlook::first may perhaps go first.
+  [[nodiscard]] JobId newest() const { return newest_; }
   // Returns true if the step is in the sequence, or if it is not a waiting leg.
   [[nodiscard]] bool has_place(StepId step) const;
   [[nodiscard]] bool has(StepId leg) const { return index_.contains(leg); }
@@ -176,7 +176,7 @@ class SafeSequence {
   std::vector<std::size_t> unplaced_legs_;  // by ArmId: number of legs
   std::unordered_map<StepId, Legs::iterator> index_;
   std::vector<std::vector<bool>> apart_;  // by ArmId, ArmId
-  std::uint64_t arrivals_ = 0;
+  JobId newest_{0};
   bool tried_ = false;         // no more legs could be placed, and nothing has changed since
   std::vector<StepId> asked_;  // the group of the last after() call
   Order found_;                // the new front of the sequence if that group is admitted
