@@ -286,8 +286,8 @@ TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
       ASSERT_EQ(parts.kind, Verdict::Kind::free) << method.index();
       ASSERT_TRUE(parts.clearance_bound);
       // The tracking error of two joints (0.001 rad each) moves the tip by up to 1 mm.
-      EXPECT_LT(parts.clearance_bound->apart_m, kPartingShare * 0.01);
-      EXPECT_GT(parts.clearance_bound->apart_m, kPartingShare * 0.009);
+      EXPECT_LE(parts.clearance_bound->apart_m, 0.01 - kPartingLoss_m);
+      EXPECT_GT(parts.clearance_bound->apart_m, 0.009 - 2.0 * kPartingLoss_m);
       asked.candidates = {
           {StepId{JobId{1}}, small::sweep(*cell, {kA}, {0.0, 0.0}, {-0.5, 0.0}, 2s), 0s}};
       const ClearanceBound all = motion_checker.judge(asked).clearance_bound.value();

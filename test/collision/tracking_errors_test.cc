@@ -49,12 +49,18 @@ TEST(TrackingErrors, LetArmsPartThatOnlyJustKeepTheClearance) {
   rails.question.rest[1] = 0.0;
   const Motion away = rails.motion(1, {kX}, -gap_m, -1.0);
   const Motion across = rails.motion(1, {kX}, -gap_m, gap_m);
+  const Motion closer = rails.motion(1, {kX}, -gap_m, -0.9 * kApart_m);
   rails.question.candidates = {away};
   EXPECT_TRUE(rails.judge().regions.empty());
-  rails.question.candidates = {across};
-  EXPECT_FALSE(rails.judge().regions.empty());
+  for (const Motion& motion : {across, closer}) {
+    rails.question.candidates = {motion};
+    EXPECT_FALSE(rails.judge().regions.empty());
+  }
   rails.question.method = Swept{kTracking_m};
-  EXPECT_NE(rails.judge().kind, Verdict::Kind::free);
+  for (const Motion& motion : {across, closer}) {
+    rails.question.candidates = {motion};
+    EXPECT_NE(rails.judge().kind, Verdict::Kind::free);
+  }
   rails.question.candidates = {away};
   EXPECT_EQ(rails.judge().kind, Verdict::Kind::free);
 }

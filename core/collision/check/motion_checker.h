@@ -30,7 +30,7 @@ namespace armloom {
 // (pair_regions.h), with the same margins.
 //
 // If the question permits it (may_part), pairs that are too close at the start may move apart. They
-// must keep kPartingShare of their present distance (tube_pair.h).
+// must keep their present distance, at most their limit (TubePair::near_at).
 //
 // Deterministic: equal questions in equal order get equal answers, evaluations included. Not
 // thread-safe: use one MotionChecker per worker thread.

@@ -107,7 +107,8 @@ std::optional<Proximity> ReachCheck::closest(const PairSet& pairs, const Reach& 
   if (blocked.empty()) return std::nullopt;
 
   // Pairs that are too close now may part.
-  const auto close = tubes.too_close_at(Duration{}, Duration{});
+  auto close = tubes.too_close_at(Duration{}, Duration{});
+  for (TubePair::PairDistance& pair : close) pair.distance_m *= kPartingShare;
   PairSet parting;
   if (!close.empty()) {
     parting = pairs;

@@ -121,6 +121,18 @@ std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Dura
   return close;
 }
 
+double TubePair::proven_distance(const NarrowPair& pair, Nodes at, double distance_m,
+                                 double moves_m) {
+  constexpr int kHalvings = 6;
+  double proven_m = std::max(distance_m - moves_m, 0.0);
+  double open_m = distance_m;
+  for (int i = 0; i < kHalvings && distance_m > 0.0; ++i) {
+    const double limit_m = 0.5 * (proven_m + open_m);
+    (keeps_apart(pair, at, limit_m, limit_m + moves_m) ? proven_m : open_m) = limit_m;
+  }
+  return proven_m;
+}
+
 std::vector<TubePair::PairDistance> TubePair::near_at(Duration time_a, Duration time_b) {
   const auto a = a_->still_at(time_a);
   TubePair still(setting_, a, is_self() ? a : b_->still_at(time_b));
@@ -132,7 +144,10 @@ std::vector<TubePair::PairDistance> TubePair::near_at(Duration time_a, Duration 
     const double enough_m = u.limit_m + u.moves_m();
     const double distance_m = still.distance(pair, nodes, enough_m);
     if (distance_m >= enough_m) continue;
-    const double least_m = std::max(distance_m - u.moves_m(), 0.0);
+    const double deviates_m =
+        distance_m - still.proven_distance(pair, nodes, distance_m, u.moves_m());
+    const double worst_m = std::max(std::min(distance_m, u.limit_m) - deviates_m, 0.0);
+    const double least_m = std::max(worst_m - kPartingLoss_m, kPartingShare * worst_m);
     const auto known = std::ranges::find(near, pair.pair, &PairDistance::pair);
     if (known == near.end()) {
       near.push_back({pair.pair, least_m});
@@ -147,7 +162,7 @@ void let_part(PairSet& pairs, std::span<const TubePair::PairDistance> near) {
   pairs.set_each_limit([&](const NarrowPair& pair) {
     const auto found = std::ranges::find(near, pair.pair, &TubePair::PairDistance::pair);
     if (found == near.end()) return pair.limit_m;
-    return std::min(pair.limit_m, std::max(kPartingShare * found->distance_m, kTouching_m));
+    return std::min(pair.limit_m, std::max(found->distance_m, kTouching_m));
   });
 }
 

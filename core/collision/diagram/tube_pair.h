@@ -80,6 +80,10 @@ class TubePair {
   // Returns true if the pair is proven to keep limit_m throughout the cell. `enough_m`: see
   // keep_apart() in body_sweep.h.
   [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);
+  // Returns the largest distance that keeps_apart() proves. `distance_m`: in the middle of the
+  // cell.
+  [[nodiscard]] double proven_distance(const NarrowPair& pair, Nodes at, double distance_m,
+                                       double moves_m);
 
   struct PairDistance {
     PairId pair;
@@ -92,7 +96,9 @@ class TubePair {
   // Return all pairs that are closer than their limits at these times, or the closest pair.
   [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
   // Returns all pairs that may be closer than their limits at these times, as the joints deviate by
-  // up to the tracking errors. Their distances are those with the largest deviations, at least 0.
+  // up to the tracking errors. Their distances are those that they must keep to part (let_part),
+  // with the largest deviations. Without deviations, such a pair keeps its limit if it does so now,
+  // else its present distance, but for kPartingLoss_m and the change of the deviations.
   [[nodiscard]] std::vector<PairDistance> near_at(Duration time_a, Duration time_b);
   [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 
@@ -115,9 +121,12 @@ class TubePair {
   std::shared_ptr<MotionTube> b_;
 };
 
+// A pair that parts may come closer by this much, because bounds are not exact; at most to
+// kPartingShare of its distance. Any more would add up over several motions.
+inline constexpr double kPartingLoss_m = 1e-4;
 inline constexpr double kPartingShare = 0.8;
-// Lets pairs move apart that are too close: each of them must keep kPartingShare of its distance
-// instead of its limit.
+// Lets pairs move apart that are too close: each of them must keep its distance in `near` instead
+// of its limit.
 void let_part(PairSet& pairs, std::span<const TubePair::PairDistance> near);
 
 }  // namespace armloom
