@@ -220,12 +220,11 @@ std::size_t step_index(const Schema& job) {
   return static_cast<std::size_t>(number_at(job, "step").value_or(0.0));
 }
 
-// Returns true if the present step of a job with steps is no motion.
+// Returns true if the present step of a job with steps moves no arm.
 bool is_between_motions(const Schema& job) {
   const Schema& steps = list_at(job, "steps");
-  if (step_index(job) >= steps.size()) return false;
-  const std::string kind = text_at(steps[step_index(job)], "kind");
-  return kind != "trajectory" && kind != "move_to";
+  const std::size_t at = step_index(job);
+  return at < steps.size() && list_at(steps[at], "arms").empty();
 }
 
 std::string moving_text(const Schema& job, const Present& now) {
@@ -234,15 +233,15 @@ std::string moving_text(const Schema& job, const Present& now) {
   std::string text =
       " has run" + since(job, "started_s", now) + " and is " + percent(job) + " done.";
   if (flag_at(job, "stopping")) return text + braking_text(job, now);
-  if (text_at(job, "state") == "paused" && is_between_motions(job)) {
-    const Schema& steps = list_at(job, "steps");
-    const std::size_t at = step_index(job);
-    text = " is at step " + std::to_string(at + 1) + " of " + std::to_string(steps.size());
-    if (!waits_on(job, "action") && !waits_on(job, "io")) {
-      return text + ", between its motions." + waits_text(job, now) + remedy_of(job, now);
-    }
-    return text + ": " + text_at(list_at(job, "waits_on").front(), "detail") + "." +
-           remedy_of(job, now);
+  const Schema& steps = list_at(job, "steps");
+  const bool awaits_step = waits_on(job, "action") || waits_on(job, "io");
+  if (text_at(job, "state") == "paused" && !steps.empty() &&
+      (awaits_step || is_between_motions(job))) {
+    text = " is at step " + std::to_string(step_index(job) + 1) + " of " +
+           std::to_string(steps.size());
+    text += awaits_step ? ": " + text_at(list_at(job, "waits_on").front(), "detail") + "."
+                        : ", between its motions." + waits_text(job, now);
+    return text + remedy_of(job, now);
   }
   if (text_at(job, "state") == "paused") {
     return " is paused on its path at " + percent(job) + "." + waits_text(job, now) +

@@ -147,8 +147,8 @@ class Claims {
       stops += row.monitor_stops;
     }
     say(lost == 0 && stops == 0, std::to_string(jobs - lost) + " of " + std::to_string(jobs) +
-                                     " certified jobs succeeded, " + std::to_string(stops) +
-                                     " monitor stops");
+                                     " jobs of certified policies succeeded, " +
+                                     std::to_string(stops) + " monitor stops");
   }
 
   std::vector<Claim> said;

@@ -96,9 +96,8 @@ class TubePair {
   // Return all pairs that are closer than their limits at these times, or the closest pair.
   [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
   // Returns all pairs that may be closer than their limits at these times, as the joints deviate by
-  // up to the tracking errors. Their distances are those that they must keep to part (let_part),
-  // with the largest deviations. Without deviations, such a pair keeps its limit if it does so now,
-  // else its present distance, but for kPartingLoss_m and the change of the deviations.
+  // up to the tracking errors. `distance_m` is what let_part() may require: the pair's limit or its
+  // present distance, whichever is smaller, less the largest deviation now and kPartingLoss_m.
   [[nodiscard]] std::vector<PairDistance> near_at(Duration time_a, Duration time_b);
   [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 
@@ -121,9 +120,11 @@ class TubePair {
   std::shared_ptr<MotionTube> b_;
 };
 
-// A pair that parts may come closer by this much, because bounds are not exact; at most to
-// kPartingShare of its distance. Any more would add up over several motions.
+// A pair that parts may come closer by this much, because bounds are not exact. More would add up
+// over several motions.
 inline constexpr double kPartingLoss_m = 1e-4;
+// A pair that parts keeps at least this share of its distance. For the monitor's look-ahead
+// (ReachCheck), this is the only bound.
 inline constexpr double kPartingShare = 0.8;
 // Lets pairs move apart that are too close: each of them must keep its distance in `near` instead
 // of its limit.
